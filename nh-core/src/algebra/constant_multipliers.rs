@@ -6,12 +6,17 @@ use super::eliminated::product;
 use super::graph::Graph;
 use super::inequalities::Demand;
 use super::number::Rational;
+use super::range::Facts;
 use super::real_points::Search;
-use crate::id::ExprId;
+use super::substitute::Substitution;
+use crate::id::{ExprId, SymbolId};
 use crate::limits;
 
 /// The places from which a point is looked for.
 const PLACES: u64 = 4;
+/// The places from which machines are looked for, and how many.
+const MORE_PLACES: u64 = 6 * PLACES;
+const MACHINES: usize = 3;
 /// What is left of a slope that depends on others, beside its length: points where equations touch are known to half of the
 /// digits.
 const LEFT: f64 = 1e-4;
@@ -30,11 +35,10 @@ impl Graph {
         equations: &[ExprId],
         demands: &[(ExprId, Demand)],
     ) -> Vec<ExprId> {
-        let holding = equations.iter().map(|equation| (*equation, Demand::Zero));
-        let all: Vec<(ExprId, Demand)> = holding.chain(demands.iter().copied()).collect();
-        if self.are_met_at_a_regular_point(&all) {
+        if self.hold_at_a_regular_point(equations, demands) {
             return Vec::new();
         }
+        let all = together(equations, demands);
         let slopes = limits::attempt(WORK, || {
             let mut search = Search::of(self, &all);
             let point = (0..PLACES).find_map(|place| search.point_from(place))?;
@@ -51,6 +55,84 @@ impl Graph {
         }
         found
     }
+}
+
+impl Graph {
+    /// Numbers of two digits for what does not move, near to real points at which equations hold together: multipliers that
+    /// depend on parameters are numbers there. Such as are not as is demanded of them are left out.
+    pub(crate) fn numbers_near_points(
+        &mut self,
+        equations: &[ExprId],
+        demands: &[(ExprId, Demand)],
+        moving: &[SymbolId],
+    ) -> Vec<Vec<(SymbolId, ExprId)>> {
+        let mut fixed = self.symbols_in(equations);
+        fixed.retain(|symbol| !moving.contains(symbol));
+        if fixed.is_empty() {
+            return Vec::new();
+        }
+        let all = together(equations, demands);
+        let found = limits::attempt(WORK, || {
+            let mut search = Search::of(self, &all);
+            let points = (0..MORE_PLACES).filter_map(|place| search.point_from(place)).take(MACHINES);
+            let points: Vec<Vec<f64>> = points.collect();
+            (search.symbols, points)
+        });
+        let Some((symbols, points)) = found else { return Vec::new() };
+        let mut machines = Vec::new();
+        for point in points {
+            let number = |symbol: &SymbolId| {
+                let index = symbols.iter().position(|known| known == symbol)?;
+                Some((*symbol, two_digits(point[index])?))
+            };
+            let numbers: Option<Vec<(SymbolId, Rational)>> = fixed.iter().map(number).collect();
+            let Some(numbers) = numbers else { continue };
+            let numbers: Vec<(SymbolId, ExprId)> =
+                numbers.into_iter().map(|(symbol, number)| (symbol, self.number(number))).collect();
+            if self.are_as_demanded(&numbers, demands) {
+                machines.push(numbers);
+            }
+        }
+        machines
+    }
+
+    /// Whether equations are proved to hold together at a real point at which their slopes are independent.
+    pub(crate) fn hold_at_a_regular_point(&self, equations: &[ExprId], demands: &[(ExprId, Demand)]) -> bool {
+        self.are_met_at_a_regular_point(&together(equations, demands))
+    }
+
+    /// Whether what is demanded of fixed symbols alone is so for these numbers.
+    fn are_as_demanded(&mut self, numbers: &[(SymbolId, ExprId)], demands: &[(ExprId, Demand)]) -> bool {
+        let mut given = Substitution::new(numbers.iter().copied());
+        demands.iter().all(|(value, demand)| {
+            let value = given.apply(self, *value);
+            let range = self.range(value, &Facts::default());
+            !self.symbols_in(&[value]).is_empty()
+                || match demand {
+                    Demand::Positive => range.low > 0.0,
+                    Demand::NotNegative => range.low >= 0.0,
+                    Demand::Nonzero => range.low > 0.0 || range.high < 0.0,
+                    Demand::Zero => false,
+                }
+        })
+    }
+}
+
+/// What is demanded, and that equations hold.
+fn together(equations: &[ExprId], demands: &[(ExprId, Demand)]) -> Vec<(ExprId, Demand)> {
+    let holding = equations.iter().map(|equation| (*equation, Demand::Zero));
+    holding.chain(demands.iter().copied()).collect()
+}
+
+/// A number rounded to two digits.
+fn two_digits(number: f64) -> Option<Rational> {
+    let tens = number.abs().log10().floor() - 1.0;
+    if !(-9.0..9.0).contains(&tens) {
+        return None;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "two digits, and a power of ten of one")]
+    let (digits, tens) = ((number / 10_f64.powf(tens)).round() as i64, tens as i64);
+    Some(Rational::from(digits) * Rational::from(10).pow(tens)?)
 }
 
 /// For each row that depends on those before it, numbers with which they add up to nothing, and 1 for itself.

@@ -4,7 +4,7 @@ use super::assumptions::on_the_base;
 use super::domain::{Condition, conditions, holds};
 use super::evidence::{name_of, shown};
 use super::parts_of_positions::vanishing_factors;
-use crate::algebra::{Demand, Facts, Graph, Node, Rational};
+use crate::algebra::{Demand, Facts, Graph, Node, Rational, Substitution};
 use crate::geometry::{Algebroid, Manifold};
 use crate::id::{ConstraintId, ExprId, Id, SymbolId};
 use crate::model::{Model, PositionDecl};
@@ -53,12 +53,43 @@ pub(super) fn multiples_without_slope(model: &mut Model, functions: &[ExprId]) -
     let demands = on_the_base(model);
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
     let graph = &mut model.graph;
-    let combinations = graph.combinations_without_slope(functions, &demands);
+    if let Some(why) = combination_without_slope(graph, functions, &demands, &coordinates) {
+        return Some(why);
+    }
+    // multipliers may depend on parameters: these are numbers then, more than once, as they may touch by chance
+    let mut found = Vec::new();
+    for numbers in graph.numbers_near_points(functions, &demands, &coordinates) {
+        let words = numbers
+            .iter()
+            .map(|(symbol, number)| format!("{} = {}", graph.symbols()[*symbol], shown(graph, *number)));
+        let words = words.collect::<Vec<_>>().join(", ");
+        let mut given = Substitution::new(numbers);
+        let functions = given.apply_all(graph, functions);
+        let demands: Vec<(ExprId, Demand)> =
+            demands.iter().map(|(value, demand)| (given.apply(graph, *value), *demand)).collect();
+        if graph.hold_at_a_regular_point(&functions, &demands) {
+            return None;
+        }
+        if let Some(why) = combination_without_slope(graph, &functions, &demands, &coordinates) {
+            found.push(format!("for {words}, and for other numbers that were tried, {why}"));
+        }
+    }
+    (found.len() > 1).then(|| found.swap_remove(0))
+}
+
+/// Why one of the combinations of functions with numbers has no slope where it is 0.
+fn combination_without_slope(
+    graph: &mut Graph,
+    functions: &[ExprId],
+    demands: &[(ExprId, Demand)],
+    coordinates: &[SymbolId],
+) -> Option<String> {
+    let combinations = graph.combinations_without_slope(functions, demands);
     let (why, _) = combinations.into_iter().find_map(|combination| {
         let combination = graph.simplify(combination);
         // of a product one factor may be 0 with a slope, and another without
-        let is_asked = vanishing_factors(graph, combination, &coordinates) == 1;
-        is_asked.then(|| without_slope(graph, combination, &coordinates))?
+        let is_asked = vanishing_factors(graph, combination, coordinates) == 1;
+        is_asked.then(|| without_slope(graph, combination, coordinates))?
     })?;
     Some(why)
 }

@@ -17,6 +17,7 @@ mod free_direction;
 mod free_plane;
 mod gibbs_appell;
 mod hamiltonian;
+mod hanging;
 mod jacobian;
 mod joints;
 mod kinetic_metric;
@@ -60,7 +61,7 @@ pub use moving_energy::moving_energy_section;
 pub use nonholonomic_connection::NonholonomicConnection;
 pub use procedure::{Definition, Procedure};
 pub use projected::{SaddleEquations, saddle_equations};
-pub(crate) use solved::{Eliminated, Equations, Factors, Solved};
+pub(crate) use solved::{Eliminated, Equations, Factors, Hanging, Inverse, Solved};
 pub use splitting::{Chaplygin, NotSplit, Splitting};
 pub use symmetric_solve::{Definiteness, solve_symmetric, uncoupled};
 pub use velocity_forms::{

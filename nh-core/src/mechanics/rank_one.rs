@@ -2,6 +2,7 @@
 //! `diag(I) + m (ρ·ρ − ρ ρᵀ)`. Mathematics (8′), Sherman and Morrison's formula.
 
 use super::procedure::Procedure;
+use super::solved::Inverse;
 use crate::algebra::{Facts, Graph, Matrix, Node, Rational};
 use crate::count::Count;
 use crate::id::ExprId;
@@ -71,14 +72,14 @@ impl RankOne {
         Some(Self { diagonal, weight, vector })
     }
 
-    /// `x = D⁻¹ (f + μ u)`.
+    /// `x = D⁻¹ (f + μ u)`, and what solves for other right-hand sides.
     pub(super) fn solve(
         &self,
         graph: &mut Graph,
         right: &[ExprId],
         procedure: &mut Procedure,
         name: &str,
-    ) -> Vec<ExprId> {
+    ) -> (Vec<ExprId>, Inverse) {
         let mut named = |graph: &mut Graph, part: &str, values: &[ExprId]| -> Vec<ExprId> {
             values.iter().map(|value| procedure.define(graph, &format!("{name}_{part}"), *value)).collect()
         };
@@ -106,14 +107,21 @@ impl RankOne {
         let rest = graph.formula(self.diagonal[first] - self.weight * squares);
         let rest = graph.simplify(rest);
         let turned = graph.sum(&turned);
-        let multiplier = graph.formula(above / (rest + self.weight * turned));
+        let below = graph.formula(rest + self.weight * turned);
+        let multiplier = graph.formula(above / below);
         let multiplier = named(graph, "mu", &[multiplier])[0];
         let parts = right
             .iter()
             .zip(&vector)
             .zip(&over)
             .map(|((f, u), over)| graph.formula((f + u * multiplier) * over));
-        parts.collect()
+        let values = parts.collect();
+        let mut along = vec![graph.formula(vector[first] * over[first]); vector.len()];
+        for (j, reach) in others.into_iter().zip(reach) {
+            along[j] = reach;
+        }
+        let weight = graph.formula(self.weight * self.diagonal[first] / below);
+        (values, Inverse { over, along, weight })
     }
 
     /// The k whose D_k differs least from the others, and D_j − D_k.
@@ -208,7 +216,7 @@ impl Monomial {
 mod tests {
     use super::*;
     use crate::mechanics::ldl::{Ldl, Numerators};
-    use crate::mechanics::{Definiteness, Definition, solve_symmetric};
+    use crate::mechanics::{Definiteness, Definition, Factors, Solved, solve_symmetric};
 
     const NAMES: [&str; 13] = ["I", "J", "K", "m", "r", "a", "x", "y", "z", "f", "g", "h", "n"];
 
@@ -270,6 +278,34 @@ mod tests {
         }
     }
 
+    /// A rotor on an axis of the ball: it leaves first, and what is left is that of a ball.
+    #[test]
+    fn so_is_one_with_a_rotor_in_it() {
+        let mut g = Graph::new();
+        let [i, j, k, m, r, _, x, y, z, e, f, h, n] = named(&mut g);
+        let mut matrix = about(&mut g, [i, j, k], m, [x, y, z]);
+        matrix[0][0] = g.formula(matrix[0][0] + r);
+        let zero = g.zero();
+        for (row, entry) in matrix.iter_mut().zip([r, zero, zero]) {
+            row.push(entry);
+        }
+        matrix.push(vec![r, zero, zero, r]);
+        assert!(RankOne::of(&mut g, &matrix).is_none());
+        let right = [e, f, h, n];
+        let mut procedure = Procedure::default();
+        let solution = solve_symmetric(&mut g, &matrix, &right, Definiteness::Definite, &mut procedure, "w");
+        let [Solved { factors: Factors::DiagonalAndOne { hanging, .. }, .. }] = &procedure.solved[..] else {
+            panic!("it is preferred: {:?}", procedure.solved);
+        };
+        assert_eq!(hanging.len(), 1);
+        let solution = procedure.with_outputs(solution).written_out(&mut g);
+        for (row, right) in matrix.iter().zip(right) {
+            let left = g.inner_product(row, &solution);
+            let defect = g.formula(left - right);
+            assert!(g.zero_test(defect).is_zero());
+        }
+    }
+
     #[test]
     fn light_bodies_cost_no_digits() {
         let mut g = Graph::new();
@@ -278,7 +314,7 @@ mod tests {
         let matrix = about(&mut g, [i, j, k], m, [x, y, z]);
         let found = RankOne::of(&mut g, &matrix).expect("it has this form");
         let inline = &mut Procedure::inline();
-        let solution = found.solve(&mut g, &[e, f, h], inline, "w");
+        let (solution, _) = found.solve(&mut g, &[e, f, h], inline, "w");
         let by_elimination =
             Ldl::of(&mut g, &matrix, Numerators::Kept, inline, "w").solve(&mut g, &[e, f, h], inline, "w");
         // inertias of 10⁻⁹ about a point that a mass of 1 is away from: whichever of them is the least

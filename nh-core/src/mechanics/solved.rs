@@ -43,8 +43,42 @@ pub(crate) enum Factors {
         /// The unknowns behind these, which nothing else is made of, in terms of them.
         others: Vec<ExprId>,
     },
+    /// Unknowns that hang on others leave first; of the others, at these places, C⁻¹ = D⁻¹ + σ a aᵀ.
+    DiagonalAndOne { hanging: Vec<Hanging<ExprId>>, rest: Vec<usize>, inverse: Inverse },
     /// Variables that leave a quadratic form one after the other; C is what is left of it for the unknowns among them.
     OneByOne(Vec<Eliminated<ExprId>>),
+}
+
+/// An unknown x_i that touches x_j alone: C_ii x_i + C_ij x_j = f_i.
+#[derive(Clone, Debug)]
+pub(crate) struct Hanging<T> {
+    /// i.
+    pub(crate) place: usize,
+    /// j.
+    pub(crate) on: usize,
+    /// 1 / C_ii.
+    pub(crate) inverse: T,
+    /// C_ij / C_ii.
+    pub(crate) ratio: T,
+}
+
+impl<T: Copy> Hanging<T> {
+    /// With other entries.
+    pub(crate) fn map<U>(&self, mut entry: impl FnMut(T) -> U) -> Hanging<U> {
+        let Self { place, on, inverse, ratio } = *self;
+        Hanging { place, on, inverse: entry(inverse), ratio: entry(ratio) }
+    }
+}
+
+/// C⁻¹ = D⁻¹ + σ a aᵀ, with a = D⁻¹ u and σ = κ / (1 − κ u·a).
+#[derive(Clone, Debug)]
+pub(crate) struct Inverse {
+    /// 1 / D_i.
+    pub(crate) over: Vec<ExprId>,
+    /// a.
+    pub(crate) along: Vec<ExprId>,
+    /// σ.
+    pub(crate) weight: ExprId,
 }
 
 /// A variable a, at a place among all, in terms of those that leave later: a = Σ c_p a_p + b. For an unknown, b is what
@@ -87,6 +121,10 @@ impl Solved {
                 all.extend(lower.iter_mut().flatten().chain(diagonal));
             }
             Factors::Rows { rows, others } => all.extend(rows.iter_mut().flatten().chain(others)),
+            Factors::DiagonalAndOne { hanging, inverse: Inverse { over, along, weight }, .. } => {
+                all.extend(over.iter_mut().chain(along).chain([weight]));
+                all.extend(hanging.iter_mut().flat_map(|gone| [&mut gone.inverse, &mut gone.ratio]));
+            }
             Factors::OneByOne(eliminated) => {
                 for Eliminated { by, inertias, unknown, .. } in eliminated {
                     all.extend(by.iter_mut().chain(inertias).map(|(_, entry)| entry));
@@ -103,7 +141,7 @@ impl Solved {
     pub(crate) fn results(&self) -> &[SymbolId] {
         let others = match &self.factors {
             Factors::Rows { others, .. } => others.len(),
-            Factors::Triangular { .. } | Factors::OneByOne(_) => 0,
+            Factors::Triangular { .. } | Factors::DiagonalAndOne { .. } | Factors::OneByOne(_) => 0,
         };
         &self.unknowns[..self.unknowns.len() - others]
     }

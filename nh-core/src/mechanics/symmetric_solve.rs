@@ -5,6 +5,7 @@
 //! with numerical pivoting.
 
 use super::elimination_order::elimination_order;
+use super::hanging::Bared;
 use super::ldl::{Ldl, Numerators};
 use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
@@ -71,12 +72,9 @@ pub fn solve_symmetric(
                 values
             }
             (_, Definiteness::Definite) => {
-                let solution = solve_definite(graph, &inner, &outer, procedure, name);
-                factors = solution.factors.map(|factors| {
-                    let (lower, diagonal) = factors.into_factors();
-                    Factors::Triangular { lower, diagonal }
-                });
-                solution.values
+                let (values, found) = solve_definite(graph, &inner, &outer, procedure, name);
+                factors = Some(found);
+                values
             }
             (_, Definiteness::Unknown) => solve_pivoted(graph, &inner, &outer, procedure, name),
         };
@@ -92,28 +90,25 @@ pub fn solve_symmetric(
     solution
 }
 
-/// The unknowns, with the factors if they were found by these.
-struct DefiniteSolution {
-    values: Vec<ExprId>,
-    factors: Option<Ldl>,
-}
-
 /// By L D Lᵀ, or by a form that takes less work and loses no more digits than the level of accuracy
-/// allows against it.
+/// allows against it; with the factors.
 fn solve_definite(
     graph: &mut Graph,
     matrix: &Matrix,
     right: &[ExprId],
     procedure: &mut Procedure,
     name: &str,
-) -> DefiniteSolution {
-    let rank_one = RankOne::of(graph, matrix);
+) -> (Vec<ExprId>, Factors) {
+    let bared = Bared::of(graph, matrix);
+    let rank_one = RankOne::of(graph, &bared.matrix);
     let mut by_factors = procedure.clone();
     let factors = Ldl::of(graph, matrix, Numerators::Kept, &mut by_factors, name);
     let values = factors.solve(graph, right, &mut by_factors, name);
     if let Some(rank_one) = rank_one {
         let mut way = procedure.clone();
-        let solution = rank_one.solve(graph, right, &mut way, name);
+        let carried = bared.carried(graph, right);
+        let (rest, inverse) = rank_one.solve(graph, &carried, &mut way, name);
+        let solution = bared.completed(graph, right, rest, &mut way, name);
         let ways = [(&way, &solution), (&by_factors, &values)];
         let [short, long] = ways.map(|(way, values)| {
             let values = way.with_outputs(values.clone()).values(graph);
@@ -123,12 +118,14 @@ fn solve_definite(
             let [short, long] = ways.map(|(way, values)| way.with_outputs(values.clone()).written_out(graph));
             if graph.is_as_accurate(&short, &long) {
                 *procedure = way;
-                return DefiniteSolution { values: solution, factors: None };
+                let Bared { hanging, rest, .. } = bared;
+                return (solution, Factors::DiagonalAndOne { hanging, rest, inverse });
             }
         }
     }
     *procedure = by_factors;
-    DefiniteSolution { values, factors: Some(factors) }
+    let (lower, diagonal) = factors.into_factors();
+    (values, Factors::Triangular { lower, diagonal })
 }
 
 fn solve_pivoted(

@@ -2,7 +2,7 @@
 
 use crate::algebra::Graph;
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::{Definition, Eliminated, Equations, Factors, Procedure, Solved};
+use crate::mechanics::{Definition, Eliminated, Equations, Factors, Hanging, Inverse, Procedure, Solved};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -38,6 +38,18 @@ pub(super) enum Closing {
     Factorised { values: Range<usize>, lower: Vec<Range<usize>>, diagonal: Range<usize> },
     /// In closed form, by these values; C is what is left of a quadratic form that variables leave one after the other.
     OneByOne { values: Range<usize>, eliminated: Vec<Eliminated<usize>> },
+    /// In closed form, by these values; C⁻¹ = D⁻¹ + σ a aᵀ for the unknowns at the places that do not hang on others.
+    DiagonalAndOne {
+        values: Range<usize>,
+        hanging: Vec<Hanging<usize>>,
+        rest: Vec<usize>,
+        /// 1 / D_i.
+        over: Range<usize>,
+        /// a.
+        along: Range<usize>,
+        /// σ.
+        weight: usize,
+    },
     /// In closed form, by these values; rows of C⁻¹ for the first of them, which alone others are made of.
     Inverted { values: Range<usize>, rows: Vec<Range<usize>> },
     /// By elimination with pivoting.
@@ -139,6 +151,12 @@ impl Opened {
             }
             Factors::Rows { rows, .. } => {
                 Closing::Inverted { values, rows: rows.iter().map(|row| self.put(row)).collect() }
+            }
+            Factors::DiagonalAndOne { hanging, rest, inverse: Inverse { over, along, weight } } => {
+                let hanging = hanging.iter().map(|gone| gone.map(|entry| self.put(&[entry]).start)).collect();
+                let (over, along, rest) = (self.put(over), self.put(along), rest.clone());
+                let weight = self.put(&[*weight]).start;
+                Closing::DiagonalAndOne { values, hanging, rest, over, along, weight }
             }
             Factors::OneByOne(eliminated) => {
                 let mut put = |entry: ExprId| self.put(&[entry]).start;

@@ -4,7 +4,7 @@ use super::opened::{Closing, OpenSystem};
 use super::tape::Tape;
 use crate::algebra::{Graph, Matrix};
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::{Definition, Eliminated};
+use crate::mechanics::{Definition, Eliminated, Hanging};
 use std::ops::Range;
 
 impl OpenSystem {
@@ -19,6 +19,7 @@ impl OpenSystem {
             Closing::Factorised { lower, diagonal, .. } => {
                 substituted(graph, tape, (lower, diagonal), residuals)
             }
+            Closing::DiagonalAndOne { .. } => self.by_one(graph, tape, residuals),
             Closing::OneByOne { eliminated, .. } => {
                 let (forces, motions) = residuals.split_at(eliminated.len());
                 let values = Pushed::by(graph, tape, eliminated, (forces, motions)).values;
@@ -47,6 +48,8 @@ impl OpenSystem {
             Closing::Factorised { lower, diagonal, .. } => {
                 substituted(graph, tape, (lower, diagonal), slopes)
             }
+            // which is symmetric
+            Closing::DiagonalAndOne { .. } => self.by_one(graph, tape, slopes),
             Closing::OneByOne { eliminated, .. } => {
                 let zero = graph.zero();
                 let pushing = |variable: &Eliminated<usize>| {
@@ -77,6 +80,43 @@ impl OpenSystem {
                 self.pivoted(graph, tape, Graph::transposed(&matrix), slopes)
             }
         }
+    }
+
+    /// The unknowns for another right-hand side where C⁻¹ = D⁻¹ + σ a aᵀ, but for those that hang on others.
+    fn by_one(&self, graph: &mut Graph, tape: &mut Tape, right: Vec<ExprId>) -> Vec<ExprId> {
+        let Closing::DiagonalAndOne { hanging, rest, over, along, weight, .. } = &self.closing else {
+            return right;
+        };
+        let hanging: Vec<Hanging<ExprId>> =
+            hanging.iter().map(|gone| gone.map(|place| tape.known_output(graph, place))).collect();
+        let (over, along) = (tape.outputs(over).unwrap_or_default(), tape.outputs(along).unwrap_or_default());
+        let weight = tape.known_output(graph, *weight);
+        let mut named = |graph: &mut Graph, value: ExprId| tape.procedure.define(graph, "", value);
+        let right: Vec<ExprId> = right.into_iter().map(|entry| named(graph, entry)).collect();
+        let mut carried = right.clone();
+        for gone in &hanging {
+            gone.carried(graph, &mut carried);
+        }
+        let forces: Vec<ExprId> = rest.iter().map(|place| named(graph, carried[*place])).collect();
+        let weighed: Vec<ExprId> = along
+            .iter()
+            .map(|entry| {
+                let value = graph.formula(weight * entry);
+                named(graph, value)
+            })
+            .collect();
+        let reached = graph.inner_product(&weighed, &forces);
+        let reached = named(graph, reached);
+        let mut values = right.clone();
+        for (((place, force), over), along) in rest.iter().zip(&forces).zip(&over).zip(&along) {
+            let value = graph.formula(force * over + along * reached);
+            values[*place] = named(graph, value);
+        }
+        for gone in &hanging {
+            let value = gone.value(graph, &right, &values);
+            values[gone.place] = named(graph, value);
+        }
+        values
     }
 
     fn pivoted(&self, graph: &mut Graph, tape: &mut Tape, matrix: Matrix, right: Vec<ExprId>) -> Vec<ExprId> {

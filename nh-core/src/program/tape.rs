@@ -73,6 +73,7 @@ impl<'p> Tape<'p> {
         match &system.closing {
             Closing::Factorised { values, .. }
             | Closing::Inverted { values, .. }
+            | Closing::DiagonalAndOne { values, .. }
             | Closing::OneByOne { values, .. } => {
                 for (unknown, place) in system.unknowns.iter().zip(values.clone()) {
                     if let Some(value) = self.output(place)
