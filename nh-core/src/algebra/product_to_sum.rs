@@ -30,6 +30,46 @@ impl Graph {
         if self.operation_count(&[result]) < self.operation_count(&[e]) { result } else { e }
     }
 
+    /// The same with what is inside of products first, as a rotation of a rotation is.
+    pub fn nested_products_to_sums(&mut self, e: ExprId) -> ExprId {
+        let (constant, terms) = self.as_linear(e);
+        let one = self.one();
+        let mut summands = vec![(constant, one)];
+        for (term, times) in terms {
+            let Node::Product { coefficient, factors } = self.node(term).clone() else {
+                summands.push((times, term));
+                continue;
+            };
+            let inside = factors.iter().map(|(base, exponent)| {
+                let is_sum = exponent.is_one() && matches!(self.node(*base), Node::Sum { .. });
+                (if is_sum { self.nested_products_to_sums(*base) } else { *base }, exponent.clone())
+            });
+            let inside: Vec<_> = inside.collect();
+            summands.push((times * coefficient, self.product(&inside)));
+        }
+        let inside = self.linear_combination(&summands);
+        self.multiplied_out(inside)
+    }
+
+    /// As [`products_to_sums`](Self::products_to_sums), with sums of sums multiplied out.
+    fn multiplied_out(&mut self, e: ExprId) -> ExprId {
+        let (constant, mut open) = self.as_linear(e);
+        let one = self.one();
+        let mut summands = vec![(constant, one)];
+        while let Some((term, coefficient)) = open.pop() {
+            match self.spread(term).as_slice() {
+                [(same, _)] if *same == term => {
+                    let sum = self.linearised(term).unwrap_or(term);
+                    summands.push((coefficient, sum));
+                }
+                parts => open
+                    .extend(parts.iter().map(|(part, times)| (*part, coefficient.clone() * times.clone()))),
+            }
+        }
+        let result = self.linear_combination(&summands);
+        if self.operation_count(&[result]) < self.operation_count(&[e]) { result } else { e }
+    }
+
     /// A product of sines or cosines with one sum as its terms, any other expression as it is.
     fn spread(&mut self, term: ExprId) -> Vec<(ExprId, Rational)> {
         let whole = vec![(term, Rational::ONE)];
@@ -140,5 +180,28 @@ mod tests {
         let whole = g.sub(product, second);
         let expected = g.add(expected, sa);
         assert_eq!(g.products_to_sums(whole), expected);
+    }
+
+    #[test]
+    fn rotations_of_rotations_come_out() {
+        let mut g = Graph::new();
+        let [a, b, d, h] = ["a", "b", "d", "h"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        let (sum, both) = (g.add(a, b), g.add(d, h));
+        let (sa, ca, sb, cb) = (g.sin(a), g.cos(a), g.sin(b), g.cos(b));
+        let (sin, cos) = (g.sin(sum), g.cos(sum));
+        // sin(a + b) (h + cos b (d + h)) − cos(a + b) sin b (d + h), a sum in a sum
+        let expression = g.formula(sin * (h + cb * both) - cos * (sb * both));
+        let expected = g.formula(sin * h + sa * d + sa * h);
+        let found = g.nested_products_to_sums(expression);
+        let difference = g.sub(found, expected);
+        assert!(g.zero_test(difference).is_zero());
+        assert!(g.operation_count(&[found]) <= g.operation_count(&[expected]), "{}", g.text(found));
+        // (cos a cos b − sin a sin b) cos b + (sin a cos b + cos a sin b) sin b
+        let (first, second) = (g.formula(ca * cb - sa * sb), g.formula(sa * cb + ca * sb));
+        let expression = g.formula(first * cb + second * sb);
+        assert_eq!(g.nested_products_to_sums(expression), ca);
     }
 }

@@ -37,6 +37,7 @@ mod restricted;
 mod solved;
 mod splitting;
 mod symmetric_solve;
+mod turned_back;
 mod velocity_forms;
 mod volume;
 mod wheel_frames;

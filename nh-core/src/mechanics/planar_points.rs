@@ -26,12 +26,14 @@ impl Point {
     }
 }
 
-/// The planar velocities in a Lagrangian: pairs of forms that enter it as μ/2 (u₁² + u₂²), with axes.
-pub(super) fn points(graph: &mut Graph, velocities: &[SymbolId], of: &VelocityForms) -> Vec<Point> {
+/// A form that enters a Lagrangian as μ u²/2: its position among the forms, μ, and its coefficients.
+pub(super) type Square = (usize, ExprId, Vec<ExprId>);
+
+/// The forms that enter a Lagrangian as μ u²/2.
+pub(super) fn squares(graph: &mut Graph, velocities: &[SymbolId], of: &VelocityForms) -> Vec<Square> {
     let VelocityForms { function, forms } = of;
     let symbols: Vec<SymbolId> = forms.iter().map(|(symbol, _)| *symbol).collect();
-    // 1. forms that enter as μ u²/2, with their coefficients
-    let mut squares: Vec<(usize, ExprId, Vec<ExprId>)> = Vec::new();
+    let mut squares: Vec<Square> = Vec::new();
     let mut partials: Vec<Derivation> =
         velocities.iter().map(|velocity| Derivation::partial(graph, *velocity)).collect();
     for (k, (symbol, form)) in forms.iter().enumerate() {
@@ -47,7 +49,12 @@ pub(super) fn points(graph: &mut Graph, velocities: &[SymbolId], of: &VelocityFo
             squares.push((k, inertia, coefficients));
         }
     }
-    // 2. pairs with the same μ, those that are moved by the most similar velocities first
+    squares
+}
+
+/// The planar velocities in a Lagrangian: pairs of forms that enter it as μ/2 (u₁² + u₂²), with axes.
+pub(super) fn points(graph: &Graph, squares: &[Square]) -> Vec<Point> {
+    // pairs with the same μ, those that are moved by the most similar velocities first
     let mut pairs: Vec<(usize, [usize; 2], [usize; 2])> = Vec::new();
     for (k, (_, mu, first)) in squares.iter().enumerate() {
         for (l, (_, other, second)) in squares.iter().enumerate().skip(k + 1) {
@@ -72,7 +79,7 @@ pub(super) fn points(graph: &mut Graph, velocities: &[SymbolId], of: &VelocityFo
 }
 
 /// The sections on which two forms are (1, 0) and (0, 1), and how many others move only one of them.
-fn axes(graph: &Graph, first: &[ExprId], second: &[ExprId]) -> Option<(usize, [usize; 2])> {
+pub(super) fn axes(graph: &Graph, first: &[ExprId], second: &[ExprId]) -> Option<(usize, [usize; 2])> {
     let is_one = |entry: ExprId| graph.as_number(entry).is_some_and(Rational::is_one);
     let is_zero = |entry: ExprId| graph.is_literal_zero(entry);
     let x = (0..first.len()).find(|s| is_one(first[*s]) && is_zero(second[*s]))?;

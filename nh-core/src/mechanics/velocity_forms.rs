@@ -135,9 +135,9 @@ pub fn equations_in_wheel_frames(
     distribution: &ConstraintDistribution,
     residuals: &[ExprId],
 ) -> Option<ReducedEquations> {
-    let forms = VelocityForms::of(graph, system);
     let velocities = &system.algebroid.velocities;
-    let mut frames = WheelFrames::of(graph, velocities, distribution, residuals, &forms)?;
+    let mut forms = VelocityForms::of(graph, system);
+    let mut frames = WheelFrames::of(graph, velocities, distribution, residuals, &mut forms)?;
     let (definitions, mut images) = by_multiples(graph, frames.definitions, &distribution.independent);
     let velocity = images.apply_all(graph, &frames.velocity);
     for point in &mut frames.points {

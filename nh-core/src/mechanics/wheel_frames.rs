@@ -13,7 +13,7 @@
 //!
 //! and a chain of bodies is a recursion in which only differences of neighbouring angles occur.
 
-use super::planar_points::{Motion, NEIGHBOURS, Point, filtered, motions, points, together};
+use super::planar_points::{Motion, NEIGHBOURS, Point, filtered, motions, points, squares, together};
 use super::procedure::Procedure;
 use super::velocity_forms::VelocityForms;
 use crate::algebra::{Function, Graph, Node, Rational, Substitution};
@@ -52,15 +52,17 @@ pub(super) struct WheelFrames {
 }
 
 impl WheelFrames {
-    /// `None` if no point is carried by a wheel.
+    /// Turns pairs of the forms that are in axes of their own. `None` if no point is carried by a wheel.
     pub(super) fn of(
         graph: &mut Graph,
         velocities: &[SymbolId],
         distribution: &ConstraintDistribution,
         residuals: &[ExprId],
-        forms: &VelocityForms,
+        forms: &mut VelocityForms,
     ) -> Option<Self> {
-        let points = points(graph, velocities, forms);
+        let mut squares = squares(graph, velocities, forms);
+        forms.turn_back(graph, velocities, &mut squares);
+        let points = points(graph, &squares);
         if points.is_empty() || distribution.dependent.is_empty() {
             return None;
         }
@@ -159,7 +161,7 @@ impl Search<'_> {
         known: &[(TurnedPoint, [Vec<ExprId>; 2])],
     ) -> Option<(TurnedPoint, [Vec<ExprId>; 2])> {
         let constraints = &self.distribution.constraints;
-        let (phi, drift) = (constraints.annihilator[row].clone(), constraints.drift[row]);
+        let (mut phi, drift) = (constraints.annihilator[row].clone(), constraints.drift[row]);
         let rank = self.velocities.len();
         // 1. the point whose velocities are most like those of the constraint
         let unlike = |graph: &Graph, point: &Point| {
@@ -176,7 +178,12 @@ impl Search<'_> {
         }
         // 2. its angle, and r + Σ ε_z y^z + b/κ = 0
         let [first, second] = point.axes;
-        let angle = direction(graph, phi[first], phi[second])?;
+        let angle = direction(graph, phi[first], phi[second]).or_else(|| {
+            for entry in &mut phi {
+                *entry = graph.nested_products_to_sums(*entry);
+            }
+            direction(graph, phi[first], phi[second])
+        })?;
         let (sin, cos) = (graph.sin(angle), graph.cos(angle));
         let scale = if graph.is_literal_zero(phi[second]) {
             graph.formula(-(phi[first] / sin))

@@ -10,7 +10,7 @@ from jointed import arm, elbow, furuta, leg
 from linkages import five_bar, four_bar, slider_crank
 from rolling import ball, ball_with_rotors, chaplygin_ball, disk, paraboloid, rattleback
 from spinning import finned_body, four_wheels, heavy_top, quadrotor, satellite, veselova
-from trailers import hitched_trailer, rear_steered, tractor
+from trailers import hitched_trailer, off_axle, rear_steered, tractor
 from wheeled import balancing_robot, car, pendulum, robot, roller_racer, roller_walker, sleigh, snakeboard
 
 SYSTEMS = {
@@ -25,4 +25,5 @@ SYSTEMS = {
     "ball with rotors": ball_with_rotors, "heavy top": heavy_top, "leaning disk": disk,
     "car, rear steering and trailer": rear_steered, "Furuta's pendulum": furuta, "leg on a foot": leg,
     "arm in space, 3 joints": elbow, "five-bar linkage": five_bar, "slider crank": slider_crank,
+    "trailers off the axle": off_axle,
 }

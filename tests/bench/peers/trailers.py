@@ -126,6 +126,65 @@ def hitched_trailer(f):
     )
 
 
+def off_axle(f):
+    def moving(p, q, u):
+        """Along and across each trailer, and its turning."""
+        ahead, across, spin, found = u.v, u.side, u.omega, []
+        for k in range(2):
+            sin, cos = f.sin(getattr(q, f"rel{k}")), f.cos(getattr(q, f"rel{k}"))
+            hitch, spin = across - p.h * spin, spin + getattr(u, f"rd{k}")
+            ahead, across = ahead * cos + hitch * sin, hitch * cos - ahead * sin - p.d * spin
+            found.append((ahead, across, spin))
+        return found
+
+    def bodies(p, q, u):
+        return [planar(p.m, p.J, u.v, u.side, u.omega, u.omega)] + [
+            planar(p.mt, p.Jt, ahead, across, spin, spin) for ahead, across, spin in moving(p, q, u)]
+
+    def rolling(p, q, u):
+        ahead, spin, found = u.v, u.omega, []
+        for k in range(2):
+            sin, cos = f.sin(getattr(q, f"rel{k}")), f.cos(getattr(q, f"rel{k}"))
+            arm = f.named(p.h * spin)
+            ahead, spin = f.named(cos * ahead - sin * arm), f.named(-f.named(1 / p.d) * (sin * ahead + cos * arm))
+            found.append((ahead, spin))
+        return found
+
+    def by_an_expert(p, q, u):
+        return [planar(p.m, p.J, u.v, 0, u.omega, u.omega)] + [
+            planar(p.mt, p.Jt, ahead, 0, spin, spin) for ahead, spin in rolling(p, q, u)]
+
+    def balance(p, q, u, i, z, via):
+        # what the accelerations of the tractor make of those of the trailers, and of these by the former
+        changes, back, spin = (z[0], z[1]), ((1, 0), (0, 1)), u.omega
+        forces = [p.m * z[0] - i.push, p.J * z[1] - i.steer]
+        for k, (ahead, turned) in enumerate(rolling(p, q, u)):
+            sin, cos = f.sin(getattr(q, f"rel{k}")), f.cos(getattr(q, f"rel{k}"))
+            through = lambda a, w: (cos * a - p.h * sin * w, -(sin * a + p.h * cos * w) / p.d)
+            rate, (along, twist) = turned - spin, through(*changes)
+            changes = along + p.d * turned * rate, twist - ahead * rate / p.d
+            back, spin = tuple(through(*each) for each in back), turned
+            forces = [force + p.mt * changes[0] * a + p.Jt * changes[1] * w for force, (a, w) in zip(forces, back)]
+        return forces
+
+    def solved(p, q, u):
+        (_, first), (_, second) = rolling(p, q, u)
+        return dict(side=0, rd0=f.named(first - u.omega), rd1=f.named(second - first))
+
+    return SimpleNamespace(
+        parameters="m J mt Jt h d", coordinates="x y th rel0 rel1", speeds="v side omega rd0 rd1", kept="v omega",
+        inputs="push steer",
+        rates=lambda q, u: on_the_plane(f, q, u) + [u.rd0, u.rd1],
+        bodies=bodies,
+        bodies_by_an_expert=by_an_expert,
+        balance=balance,
+        relative=lambda z: z,
+        forces=lambda p, q, u, i: dict(v=i.push, omega=i.steer),
+        constraints=lambda p, q, u: [u.side] + [across for _, across, _ in moving(p, q, u)],
+        solved=solved,
+    )
+
+
 def rear_steered(f):
     def bodies(p, q, u):
         spin = u.omega + u.rd

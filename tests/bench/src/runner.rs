@@ -10,9 +10,9 @@ use nonholonomic::State;
 use crate::contest::{Contest, Random, recorded_samples, samples};
 use crate::systems::{
     arm, balancing_robot, ball, ball_with_rotors, car, chaplygin_ball, disk, elbow, finned_body, five_bar,
-    four_bar, four_wheels, furuta, heavy_top, hitched_trailer, leg, pendulum, quadrotor, rattleback,
-    rear_steered, robot, roller_racer, roller_walker, satellite, sleigh, slider_crank, snakeboard, tractor,
-    veselova,
+    four_bar, four_wheels, furuta, heavy_top, hitched_trailer, leg, off_axle, pendulum, quadrotor,
+    rattleback, rear_steered, robot, roller_racer, roller_walker, satellite, sleigh, slider_crank,
+    snakeboard, tractor, veselova,
 };
 use nh_counted::callgrind::Counts;
 
@@ -91,6 +91,7 @@ pub fn all() -> Vec<Box<dyn Run>> {
         Box::new(Of::<elbow::Elbow>(PhantomData)),
         Box::new(Of::<five_bar::FiveBar>(PhantomData)),
         Box::new(Of::<slider_crank::SliderCrank>(PhantomData)),
+        Box::new(Of::<off_axle::OffAxle>(PhantomData)),
     ]
 }
 

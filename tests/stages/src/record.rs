@@ -115,6 +115,7 @@ const LAST: &[&str] = &[
     include_str!("../../bench/src/systems/elbow.rs"),
     include_str!("../../bench/src/systems/five_bar.rs"),
     include_str!("../../bench/src/systems/slider_crank.rs"),
+    include_str!("../../bench/src/systems/off_axle.rs"),
 ];
 
 /// What stands in `#[nonholonomic(…)]`, and the struct.

@@ -10,7 +10,7 @@ use crate::algebra::Graph;
 use crate::id::ExprId;
 use crate::mechanics::LagrangianSystem;
 use crate::mechanics::exterior_derivative::ExteriorDerivative;
-use crate::mechanics::planar_points::points;
+use crate::mechanics::planar_points::{points, squares};
 use crate::mechanics::velocity_forms::{VelocityForms, spin};
 
 /// Forms that are not closed.
@@ -39,7 +39,8 @@ impl Turned {
         if turned.others.is_empty() {
             return turned;
         }
-        for point in points(graph, velocities, forms) {
+        let squares = squares(graph, velocities, forms);
+        for point in points(graph, &squares) {
             if !point.forms.iter().any(|k| turned.others.contains(k)) {
                 continue;
             }

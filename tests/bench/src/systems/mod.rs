@@ -17,6 +17,7 @@ pub mod furuta;
 pub mod heavy_top;
 pub mod hitched_trailer;
 pub mod leg;
+pub mod off_axle;
 pub mod pendulum;
 pub mod quadrotor;
 pub mod rattleback;

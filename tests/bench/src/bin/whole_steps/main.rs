@@ -20,9 +20,9 @@ use nh_bench::contest::{ByHand, Contest, SAMPLES, samples};
 use nh_bench::contest_table::{cell, geometric_mean};
 use nh_bench::systems::{
     arm, balancing_robot, ball, ball_with_rotors, car, chaplygin_ball, disk, elbow, finned_body, five_bar,
-    four_bar, four_wheels, furuta, heavy_top, hitched_trailer, leg, pendulum, quadrotor, rattleback,
-    rear_steered, robot, roller_racer, roller_walker, satellite, sleigh, slider_crank, snakeboard, tractor,
-    veselova,
+    four_bar, four_wheels, furuta, heavy_top, hitched_trailer, leg, off_axle, pendulum, quadrotor,
+    rattleback, rear_steered, robot, roller_racer, roller_walker, satellite, sleigh, slider_crank,
+    snakeboard, tractor, veselova,
 };
 use nh_counted::{callgrind, program};
 use nonholonomic::Method;
@@ -156,6 +156,7 @@ systems!(
     elbow::Elbow,
     five_bar::FiveBar,
     slider_crank::SliderCrank,
+    off_axle::OffAxle,
 );
 
 fn main() -> ExitCode {
