@@ -156,8 +156,8 @@ mod syntax;
 ///
 /// `units { x, q[2] = m; theta = rad; m = kg; torque = N m; }` gives units to declared names. Left of `=` stand
 /// coordinates, velocities, parameters, constants and inputs, families as a whole or by entry; labels of
-/// `constraints` (the unit of the multiplier) and `symmetries` (that of the momentum), `outputs`, `conserved`, `t` and
-/// `lagrangian`. Right of it stand units alone, so `m = kg` is the mass and `x = m` the metre: kg m s A K mol cd rad
+/// `constraints` (the unit of the multiplier), `symmetries` (that of the momentum) and `impacts` (that of the impulse),
+/// `outputs`, `conserved`, `t` and `lagrangian`. Right of it stand units alone, so `m = kg` is the mass and `x = m` the metre: kg m s A K mol cd rad
 /// (= 1) Hz N J W Pa C V F ohm Wb T H, as a product `N m` or `N*m`, with powers `s^-2` and `m^(1/2)`, and one `/`
 /// in front of one unit or of parentheses: `m/s^2`, `kg/(m s)`. `1` is that of a pure number. Multiples (mm, g, deg,
 /// rpm) are refused, since the equations are in coherent units.

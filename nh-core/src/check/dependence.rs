@@ -168,6 +168,20 @@ fn undecided(model: &Model, why: &str) -> Violation {
     }
 }
 
+/// The way out where a constraint follows from others. An entry of a vector equation cannot be left out by itself.
+pub(super) fn left_out(model: &Model, id: ConstraintId) -> String {
+    let constraint = &model.constraints[id];
+    if !constraint.is_entry {
+        return "leave it out: the constraints of a system are independent".into();
+    }
+    let before = model.constraints.iter().take(id.index());
+    let entry = before.filter(|other| other.is_entry && other.origin == constraint.origin).count();
+    format!(
+        "it is entry {entry} of this equation, counted from 0: leave that entry out, by parts of both sides such as \
+         `(…)[0..2]`, or write an equation for each of the others"
+    )
+}
+
 /// Shows the combination of earlier constraints that a dependent one is.
 fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index: usize) -> Violation {
     let id = ConstraintId::from_index(index);
@@ -186,11 +200,7 @@ fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index:
         (!graph.zero_test(left_over).is_zero()).then_some(left_over)
     });
     let (what, evidence, way_out) = match contradiction {
-        None => (
-            format!("{name} follows from the constraints before it"),
-            evidence,
-            "leave it out: the constraints of a system are independent",
-        ),
+        None => (format!("{name} follows from the constraints before it"), evidence, left_out(model, id)),
         Some(left_over) if graph.contradiction(&demands(left_over)).is_none() => (
             format!(
                 "{name} agrees with the constraints before it only where {} = 0",
@@ -201,21 +211,16 @@ fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index:
                 "change or leave out one of them; what constrains positions is written in `holonomic`"
             } else {
                 "change or leave out one of them"
-            },
+            }
+            .to_owned(),
         ),
         Some(left_over) => (
             format!("{name} contradicts the constraints before it"),
             format!("as far as velocities go, {evidence}; then {} = 0 is left", shown(graph, left_over)),
-            "change or leave out one of them",
+            "change or leave out one of them".to_owned(),
         ),
     };
-    Violation {
-        law: Law::Independence,
-        origin: model.constraints[id].origin,
-        what,
-        evidence,
-        way_out: way_out.into(),
-    }
+    Violation { law: Law::Independence, origin: model.constraints[id].origin, what, evidence, way_out }
 }
 
 /// The combination of earlier rows that a row is, as text.

@@ -1,7 +1,7 @@
 //! Position constraints that could not be solved for anything: which of them, and of the constraints on velocities beside
 //! them, are independent is asked at points of N that are found modulo powers of primes.
 
-use super::dependence::place_of;
+use super::dependence::{left_out, place_of};
 use super::evidence::{listed, name_of};
 use crate::algebra::{Graph, Matrix, Node};
 use crate::geometry::{Manifold, NearManifold, RowsOnPart, rows_on_parts};
@@ -179,6 +179,6 @@ pub(super) fn dependent_on_part(
             rows.len(),
             points_shown(&part)
         ),
-        way_out: "leave it out: the constraints of a system are independent".into(),
+        way_out: left_out(model, id),
     })
 }

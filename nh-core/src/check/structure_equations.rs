@@ -7,10 +7,13 @@ use crate::id::{CoordId, ExprId, Id, Origin, SectionId};
 use crate::limits;
 use crate::model::{Kinematics, Model};
 use crate::violation::{Law, Violation};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// At most so many broken instances of one law are reported as errors.
 const REPORTED: usize = 3;
+
+/// So many times as many are compared with each other.
+const COMPARED: usize = 8;
 
 /// How an almost Lie algebroid breaks the structure equations, if it does.
 #[derive(Clone, Debug, Default)]
@@ -53,12 +56,18 @@ pub fn structure_equations(
         };
         return Ok(BrokenLaws {
             homomorphism: told(homomorphism(model, algebroid, base, 1)),
-            jacobi: told(jacobi(model, algebroid, base, 1)),
+            jacobi: told(
+                broken_triples(model, algebroid, base, 1)
+                    .1
+                    .into_iter()
+                    .map(|(_, violation)| violation)
+                    .collect(),
+            ),
         });
     }
     let mut violations = homomorphism(model, algebroid, base, REPORTED);
     if violations.is_empty() {
-        violations = jacobi(model, algebroid, base, REPORTED);
+        violations = jacobi(model, algebroid, base);
     }
     if violations.is_empty() { Ok(BrokenLaws::default()) } else { Err(violations) }
 }
@@ -157,18 +166,82 @@ fn defect_text(graph: &Graph, defect: ExprId, verdict: &Verdict, base: &Manifold
 }
 
 /// Mathematics (3): `Σ_cyclic [ ρ^i_α ∂_iC^ν_{βγ} + C^μ_{βγ} C^ν_{αμ} ] = 0`.
-fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold, reported: usize) -> Vec<Violation> {
+fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Violation> {
+    let (brackets, broken) = broken_triples(model, algebroid, base, REPORTED * COMPARED);
+    if let Some(violation) = by_one_bracket(model, &brackets, &broken) {
+        return vec![violation];
+    }
+    broken.into_iter().take(REPORTED).map(|(_, violation)| violation).collect()
+}
+
+/// The brackets, and at most so many triples that break (3).
+fn broken_triples(
+    model: &mut Model,
+    algebroid: &Algebroid,
+    base: &Manifold,
+    most: usize,
+) -> (Brackets, Vec<Broken>) {
     let sections: Vec<SectionId> = algebroid.sections().collect();
     let brackets = written_brackets(&mut model.graph, algebroid, &sections);
-    let mut violations = Vec::new();
+    let mut broken = Vec::new();
     for triple in triples_with_summands(&model.graph, &brackets) {
-        if violations.len() == reported {
+        if broken.len() == most {
             break;
         }
         let triple = triple.map(|index| sections[index]);
-        violations.extend(jacobi_of_triple(model, algebroid, &brackets, base, triple));
+        let violation = jacobi_of_triple(model, algebroid, &brackets, base, triple);
+        broken.extend(violation.map(|violation| (triple, violation)));
     }
-    violations
+    (brackets, broken)
+}
+
+/// A triple of sections, and how it breaks (3).
+type Broken = ([SectionId; 3], Violation);
+
+/// What breaks the identity, where one bracket enters into all sums that are not 0: what is wrong in a bracket is seen in
+/// every sum that it enters into, as a rule, and in no other.
+fn by_one_bracket(model: &Model, brackets: &Brackets, broken: &[Broken]) -> Option<Violation> {
+    let [(first, violation), others @ ..] = broken else { return None };
+    let mut suspects = entering(brackets, *first);
+    for (triple, _) in others {
+        let here = entering(brackets, *triple);
+        suspects.retain(|pair| here.contains(pair));
+    }
+    // of several a bracket that is not 0 is the likelier one
+    if suspects.len() > 1 {
+        suspects.retain(|[left, right]| !brackets[left.index()][right.index()].is_empty());
+    }
+    let mut suspects = suspects.into_iter();
+    let (Some(pair), None, false) = (suspects.next(), suspects.next(), others.is_empty()) else {
+        return None;
+    };
+    let names = pair.map(|section| model.sections[section].name.as_str());
+    let bracket = format!("[{}]", names.join(", "));
+    let sums = if others.len() == 1 { "another sum" } else { "other sums" };
+    Some(Violation {
+        origin: origin_of_pair(model, pair[0], pair[1]),
+        evidence: format!(
+            "{}; {bracket} enters into it, and into {sums} that should be 0",
+            violation.evidence
+        ),
+        way_out: format!(
+            "correct the bracket {bracket}; or write `almost;` if an almost Lie algebroid is meant"
+        ),
+        ..violation.clone()
+    })
+}
+
+/// The pairs of whose brackets the sum of a triple is made.
+fn entering(brackets: &Brackets, triple: [SectionId; 3]) -> BTreeSet<[SectionId; 2]> {
+    let mut found = BTreeSet::new();
+    for shift in 0..3 {
+        let [alpha, beta, gamma] = [0, 1, 2].map(|position| triple[(position + shift) % 3]);
+        let within = brackets[beta.index()][gamma.index()].iter().map(|(mu, _)| [alpha, *mu]);
+        for [left, right] in within.chain([[beta, gamma]]).filter(|[left, right]| left != right) {
+            found.insert([left.min(right), left.max(right)]);
+        }
+    }
+    found
 }
 
 /// The triples α < β < γ of whose double brackets one may not be 0, in their order: where there are many sections, most

@@ -41,10 +41,12 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
         all.filter(|symbol| state(symbol) && !needed.contains(symbol)).collect()
     };
     let observables = system.functions.get(&OUTPUTS).cloned().unwrap_or_default();
-    for (output, value) in system.model.outputs.iter().zip(&observables.outputs) {
-        let missing = missing(&observables, &[*value]);
-        if !missing.is_empty() {
-            let what = format!("the output `{}`", output.name);
+    let declared: Vec<_> = system.model.outputs.iter().zip(&observables.outputs).collect();
+    for entries in declared.chunk_by(|(output, _), (next, _)| family(&output.name) == family(&next.name)) {
+        let values: Vec<ExprId> = entries.iter().map(|(_, value)| **value).collect();
+        let missing = missing(&observables, &values);
+        if let (false, Some((output, _))) = (missing.is_empty(), entries.first()) {
+            let what = format!("the output `{}`", family(&output.name));
             refused.push(left_out(&system, &what, &missing, output.origin));
         }
     }
@@ -225,6 +227,11 @@ fn note(system: &mut System, needed: &BTreeSet<SymbolId>, without: &[&str]) {
 
 fn names(system: &System, symbols: &[SymbolId]) -> Vec<String> {
     symbols.iter().map(|symbol| system.model.graph.symbols()[*symbol].clone()).collect()
+}
+
+/// The name of a family by that of an entry, `pose[1]`: one line may declare all of them.
+fn family(entry: &str) -> &str {
+    entry.split('[').next().unwrap_or(entry)
 }
 
 /// `what` needs variables that are left out.

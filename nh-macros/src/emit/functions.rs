@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 
 use nonholonomic_core::functions::{self, Function, Shape, Signature, Sizes, TABLE, When};
+use nonholonomic_core::model::Request;
 use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
@@ -54,6 +55,9 @@ pub(super) fn stubs(context: &Context, outline: &Outline) -> Part {
     };
     let printer = Printer { context, sizes, results: Results::expected(context, outline) };
     let mut part = Part { items: printer.results.emit(context), ..Part::default() };
+    if outline.requests.contains(&Request::Power) {
+        part.items.extend(power::item(context, &printer.results));
+    }
     for signature in TABLE.iter().filter(|signature| printer.is_expected(signature, outline)) {
         let zero = printer.zero(signature.shape);
         part.methods.extend(printer.head(signature).with_body(context, &BTreeSet::new(), &zero));
@@ -92,12 +96,10 @@ impl Printer<'_> {
     fn is_known(&self, shape: Shape) -> bool {
         let is_known = |size: &functions::Size| self.sizes.of(*size) > 0;
         match shape {
-            Shape::Scalar | Shape::OverThePoint => true,
+            Shape::Scalar | Shape::OverThePoint | Shape::Power => true,
             Shape::Record(record) => self.results.get(self.context, record).is_some(),
             Shape::Array(lengths) => lengths.iter().all(is_known),
             Shape::Matrix(rows, _) | Shape::ByStateAndInput(rows) => is_known(&rows),
-            // its fields are those of what is derived
-            Shape::Power => false,
         }
     }
 

@@ -76,6 +76,7 @@ pub(crate) use collisions::collision;
 pub(crate) use inclusion::inclusion;
 pub(crate) use layout::{Family, Layout, TypeNames};
 pub(crate) use map_functions::{morphism, morphism_stub};
+pub(crate) use power::directions_of_forces;
 pub(crate) use reduced_declaration::{Written, can_be_written, quotient};
 pub(crate) use stubs::stubs;
 

@@ -1,8 +1,7 @@
 //! The power of forces and constraints: a struct of two records, and their total.
 
 use nonholonomic_core::functions::Record as Kind;
-use nonholonomic_core::model::ForceDirection;
-use nonholonomic_core::system::System;
+use nonholonomic_core::model::{ForceDirection, Model};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
@@ -12,8 +11,7 @@ use super::results::Results;
 use super::setting::Context;
 
 /// What each declared force acts along, as it is written.
-pub(super) fn directions(system: &System) -> Vec<String> {
-    let model = &system.model;
+pub(crate) fn directions_of_forces(model: &Model) -> Vec<String> {
     let name = |direction| match direction {
         ForceDirection::Coordinate(coordinate) => model.coordinates[coordinate].name.clone(),
         // where E = TM a force is written along the coordinate

@@ -52,7 +52,7 @@ impl Results {
             found.add(functions::Record::Gyroscopic, record);
         }
         if let Some(procedure) = system.functions.get(&functions::POWER) {
-            let directions = super::power::directions(system);
+            let directions = super::power::directions_of_forces(&system.model);
             let constraints = procedure.outputs.len().saturating_sub(directions.len());
             found.add_if(functions::Record::PowerOfForces, super::power::of_forces(context, &directions));
             let record = super::power::of_constraints(context, fields(&labels, constraints, "power"));
@@ -69,12 +69,19 @@ impl Results {
         let mut found = Self(Vec::new());
         let of_multipliers = multipliers(context, &labels, count(asked(Request::Multipliers)));
         found.add_if(functions::Record::Multipliers, of_multipliers);
-        if count(asked(Request::Reactions)) > 0 {
+        if asked(Request::Reactions) {
             found.add(functions::Record::Reactions, reactions(context));
         }
         found.add_if(functions::Record::Residual, residual(context, &labels, labels.len()));
         if !outline.momenta.is_empty() {
             found.add(functions::Record::Momenta, momenta(context, &outline.momenta));
+        }
+        if asked(Request::Power) {
+            let of_forces = super::power::of_forces(context, &outline.directions);
+            found.add_if(functions::Record::PowerOfForces, of_forces);
+            let of_constraints =
+                super::power::of_constraints(context, fields(&labels, labels.len(), "power"));
+            found.add_if(functions::Record::PowerOfConstraints, of_constraints);
         }
         found
     }

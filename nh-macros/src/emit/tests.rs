@@ -165,6 +165,7 @@ fn products_with_vectors() {
 fn stubs_stand_in() {
     let layout = layout(&sleigh());
     let outline = Outline {
+        directions: Vec::new(),
         in_state: [layout.coordinate_symbols.as_slice(), &layout.velocity_symbols[..2]].concat(),
         requests: vec![
             Request::Jacobian,

@@ -97,9 +97,18 @@ impl Resolver {
             (r.shape, inertia.shape),
             (_, Shape::Number) | (Shape::Matrix(..), Shape::Vector(3) | Shape::Matrix(3, 3))
         );
-        let (Some(p), true) = (self.in_shape(p, position), fits) else {
+        let Some(p) = self.in_shape(p, position) else {
             return Err(self.no_attitude(expr, BODY, &[mass.1, inertia, p, r]));
         };
+        if !fits {
+            let way_out = match position {
+                Shape::Vector(2) => "in the plane the inertia is a number",
+                _ => {
+                    "in space the inertia is a number, a vector of 3 principal moments or a matrix of 3 × 3 entries"
+                }
+            };
+            return Err(self.misfit(expr, BODY, &[mass.1, inertia, &p, r], way_out));
+        }
         let mass = self.of_parameters(at, "the mass of a body", number)?;
         for entry in &inertia.entries {
             self.of_parameters(expr, "the inertia of a body", *entry)?;

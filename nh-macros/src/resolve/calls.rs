@@ -11,7 +11,7 @@ use super::context::Usage;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use super::scope::Meaning;
-use super::vectors::{Tensor, tensor_names};
+use super::tensors::{Tensor, tensor_names};
 use crate::report::Diagnostic;
 use crate::suggest::did_you_mean;
 use crate::syntax::ast::{Expr, Name};

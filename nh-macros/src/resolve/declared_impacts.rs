@@ -1,15 +1,23 @@
 //! What velocities jump to.
 
 use nonholonomic_core::algebra::Rational;
+use nonholonomic_core::id::{ExprId, SymbolId};
 use nonholonomic_core::model::{ImpactDecl, ImpactRowDecl, Located};
 
 use super::alike::Measured;
 use super::context::Context;
 use super::reports::Outcome;
 use super::resolver::Resolver;
-
 use crate::report::Diagnostic;
 use crate::syntax::ast::{ImpactLine, ImpactRow, Item};
+
+/// What a row of an impact exerts: times the rate of the row it is an energy.
+pub(super) struct Impulse {
+    pub(super) name: String,
+    pub(super) row: ExprId,
+    /// Whether the row is a rate itself.
+    pub(super) is_velocity: bool,
+}
 
 impl Resolver {
     /// The impacts; rows of one label that stand in a `for` act together.
@@ -28,17 +36,37 @@ impl Resolver {
                 }
                 Some(_) => {
                     let text = &line.label.text;
-                    let error = Diagnostic::new(
-                        line.label.extent(),
-                        format!("the label `{text}` is given twice"),
-                    )
-                    .evidence("rows that act together stand in one item, with one coefficient of restitution")
-                    .way_out("separate them by commas, or choose another label");
+                    let at = line.label.extent();
+                    let error = if is_in_loop {
+                        Diagnostic::new(at, format!("the coefficient of restitution of `{text}` changes in the `for`"))
+                            .evidence("rows of one label that stand in a `for` act together, with one coefficient")
+                            .way_out("leave out the `for`, and write an item for each row, with a label of its own")
+                    } else {
+                        Diagnostic::new(at, format!("the label `{text}` is given twice"))
+                            .evidence("rows that act together stand in one item, with one coefficient of restitution")
+                            .way_out("separate them by commas, or choose another label")
+                    };
                     return Err(this.report(&line.label, error));
                 }
             }
             Ok(())
         });
+        found
+    }
+
+    /// The impulses of the rows, by name.
+    pub(super) fn impulses(&self, impacts: &[ImpactDecl]) -> Vec<Impulse> {
+        let rates = self.tables.coordinates.iter().map(|coordinate| coordinate.rate);
+        let sections = self.tables.sections.iter().map(|section| section.symbol);
+        let frame = self.tables.frame.iter().map(|section| section.symbol);
+        let moving: Vec<SymbolId> = rates.chain(sections).chain(frame).collect();
+        let mut found = Vec::new();
+        for impact in impacts {
+            for (k, row) in impact.rows.iter().enumerate() {
+                let is_velocity = self.graph.symbols_in(&[row.value]).iter().any(|s| moving.contains(s));
+                found.push(Impulse { name: impact.row_name(k), row: row.value, is_velocity });
+            }
+        }
         found
     }
 

@@ -10,6 +10,7 @@ use nonholonomic_core::units::{
 };
 
 use super::alike::Measured;
+use super::declared_impacts::Impulse;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use super::scope::Meaning;
@@ -24,6 +25,7 @@ pub(super) struct Named<'a> {
     pub(super) claims: &'a [OutputDecl],
     pub(super) constraints: &'a Table<ConstraintId, ConstraintDecl>,
     pub(super) symmetries: &'a [SymmetryDecl],
+    pub(super) impulses: &'a [Impulse],
     /// These have symbols, and are no sections of E.
     pub(super) orthonormal: &'a [SymbolId],
 }
@@ -213,7 +215,7 @@ impl Resolver {
         self.unit_of_label(place, named).map(|sides| (false, sides))
     }
 
-    /// Outputs, claims, multipliers of constraints, momenta of symmetries.
+    /// Outputs, claims, multipliers of constraints, momenta of symmetries, impulses of impacts.
     fn unit_of_label(&mut self, place: &Place, named: &Named<'_>) -> Outcome<Vec<(String, Measured)>> {
         let text = &place.name.text;
         let (mut entry, mut label) = (text.clone(), text.clone());
@@ -264,7 +266,7 @@ impl Resolver {
     }
 
     /// What has a name but no symbol, and what it is: (7), λ times φ is a power; the momentum of a section has its unit
-    /// times J s.
+    /// times J s; an impulse times the rate of its row is an energy.
     fn labelled(named: &Named<'_>, at: Extent) -> Vec<(&'static str, String, Measured)> {
         let of = |name: &str| Measured::expected(format!("`{name}`"), at);
         let mut found = Vec::new();
@@ -284,6 +286,11 @@ impl Resolver {
             let side = of(&symmetry.name).energy(1).time(1);
             let side = side.expression(symmetry.value, Kind::Sections, 1);
             found.push(("momentum of", symmetry.name.clone(), side));
+        }
+        for impulse in named.impulses {
+            let side = of(&impulse.name).energy(1).time(i64::from(!impulse.is_velocity));
+            let side = side.expression(impulse.row, Kind::Velocities, -1);
+            found.push(("impulse of", impulse.name.clone(), side));
         }
         found
     }

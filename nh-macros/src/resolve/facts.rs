@@ -86,7 +86,11 @@ impl Resolver {
         }
         let error = Diagnostic::new(equation.extent, "the two sides have different shapes")
             .evidence(format!("on the left is {}, on the right {}", left.shape, right.shape));
-        Err(self.report(equation, error))
+        Err(self.report(equation, match (left.shape, right.shape) {
+            (Shape::Matrix(n, m), Shape::Number) | (Shape::Number, Shape::Matrix(n, m)) if n == m => error
+                .way_out(format!("the matrix with ones on its diagonal is `identity({n})`; only the literal `0` has any shape")),
+            _ => error,
+        }))
     }
 
     /// `left − right`

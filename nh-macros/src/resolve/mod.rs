@@ -43,6 +43,7 @@ mod scope;
 mod shared;
 mod statements;
 mod symmetries;
+mod tensors;
 mod track;
 mod turns;
 mod uncalled;
@@ -55,7 +56,7 @@ mod tests;
 use std::collections::BTreeSet;
 
 use nonholonomic_core::id::{Origin, SymbolId};
-use nonholonomic_core::model::{Located, Model};
+use nonholonomic_core::model::{Located, Model, Request};
 
 pub(crate) use self::dropped::resolve_quotient;
 pub(crate) use self::origins::Origins;
@@ -111,6 +112,15 @@ impl Resolver {
         names.filter(|name| !self.mentioned.contains(name)).collect()
     }
 
+    /// What `emit` asks for.
+    fn asked(&mut self, declaration: &SystemDecl) -> Vec<(Request, Origin)> {
+        let sections = &declaration.sections;
+        let generic = matches!(declaration.structure.scalar, Scalar::Parameter(_));
+        let constrained =
+            sections.constraints.is_some() || sections.distribution.is_some() || sections.holonomic.is_some();
+        sections.emit.as_ref().map(|s| self.requests(&s.body, constrained, generic)).unwrap_or_default()
+    }
+
     /// The model, of which parts in error are left out.
     fn model(&mut self, declaration: &SystemDecl, layout: &mut Layout) -> Model {
         let sections = &declaration.sections;
@@ -141,11 +151,7 @@ impl Resolver {
         let hamilton_jacobi = sections.hamilton_jacobi.as_ref().map(|s| self.hamilton_jacobi(s));
         let routh = sections.routh.as_ref().map(|s| self.routh(&s.body, &symmetries)).unwrap_or_default();
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
-        let generic = matches!(declaration.structure.scalar, Scalar::Parameter(_));
-        let constrained =
-            sections.constraints.is_some() || sections.distribution.is_some() || sections.holonomic.is_some();
-        let requests =
-            sections.emit.as_ref().map(|s| self.requests(&s.body, constrained, generic)).unwrap_or_default();
+        let requests = self.asked(declaration);
         self.unused();
         let orthonormal = sections.orthonormal.as_ref().map(|s| self.orthonormal(s, layout));
         let tracked = sections.track.as_ref().map(|s| self.tracked(s, &outputs));
@@ -160,6 +166,7 @@ impl Resolver {
             claims: &claims,
             constraints: &constraints,
             symmetries: &symmetries,
+            impulses: &self.impulses(&impacts),
             orthonormal: orthonormal.as_ref().map_or(&[], |(symbols, _)| symbols),
         };
         let units = sections.units.as_ref().map(|s| self.units(&s.body, &named, layout)).unwrap_or_default();

@@ -8,6 +8,7 @@ use nonholonomic_core::model::{
 };
 
 use super::declare::DIMENSION;
+use crate::emit::directions_of_forces;
 
 /// The entries of a record beyond which there are more than a system can have: the declaration is refused, and a compiler
 /// may run out of stack over what is derived for a record of many thousands.
@@ -22,6 +23,8 @@ pub(crate) struct Outline {
     pub(crate) requests: Vec<Request>,
     /// The labels of the constraints.
     pub(crate) labels: Vec<Option<String>>,
+    /// What the forces act along.
+    pub(crate) directions: Vec<String>,
     /// The labels of the momenta.
     pub(crate) momenta: Vec<String>,
     /// The number of identities of the base.
@@ -69,6 +72,7 @@ impl Outline {
             in_state: in_state(model),
             requests: model.requests.iter().map(|(request, _)| *request).collect(),
             labels: labels.take(MOST).collect(),
+            directions: directions_of_forces(model).into_iter().take(MOST).collect(),
             momenta: momenta(model),
             identities: model.identities.len().min(MOST),
             velocities: kept(model).len(),

@@ -250,13 +250,27 @@ impl Resolver {
         what: &str,
         values: &[&Array],
     ) -> super::reports::Reported {
+        self.misfit(
+            expr,
+            what,
+            values,
+            "in space a point is a vector of 3 entries and an attitude a matrix of 3 × 3 entries, in the plane a \
+             vector of 2 entries and an angle",
+        )
+    }
+
+    /// Arguments of which one has another shape than it should have.
+    pub(super) fn misfit(
+        &mut self,
+        expr: &Expr,
+        what: &str,
+        values: &[&Array],
+        way_out: &str,
+    ) -> super::reports::Reported {
         let shapes: Vec<String> = values.iter().map(|value| value.shape.to_string()).collect();
         let error = Diagnostic::new(expr.extent, what)
             .evidence(format!("these are {}", shapes.join(", ")))
-            .way_out(
-                "in space a point is a vector of 3 entries and an attitude a matrix of 3 × 3 entries, in the plane a \
-                 vector of 2 entries and an angle",
-            );
+            .way_out(way_out);
         self.report(expr, error)
     }
 }

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use nonholonomic_core::id::{ConstantId, SymbolId};
 
 use super::array::{Array, Shape};
+use super::tensors::usage;
 use crate::report::{Diagnostic, Extent};
 use crate::suggest::did_you_mean;
 use crate::syntax::ast::Name;
@@ -238,6 +239,9 @@ impl Scope {
         }
         if text == "time" {
             return error.way_out("the time is `t`");
+        }
+        if let Some(call) = usage(text) {
+            return error.way_out(format!("the function of this name is called as `{call}`"));
         }
         // the names of the generated fields
         let of_coordinate = |suffix| text.strip_suffix(suffix).filter(|rest| self.is_coordinate(rest));

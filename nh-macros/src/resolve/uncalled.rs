@@ -7,7 +7,7 @@ use super::array::Array;
 use super::calls::Called;
 use super::resolver::Resolver;
 use super::scope::Meaning;
-use super::vectors::Tensor;
+use super::tensors::Tensor;
 use crate::syntax::ast::{Expr, ExprKind, Name};
 
 impl Resolver {

@@ -6,84 +6,13 @@ use super::array::{Array, Shape};
 use super::calls::Called;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
+use super::tensors::{Tensor, usage};
 use crate::report::Diagnostic;
 use crate::syntax::ast::{Expr, Name};
-
-/// A function of vectors, matrices and bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Tensor {
-    /// `diff(e, x)`
-    Diff,
-    /// `transpose(A)`
-    Transpose,
-    /// `hat(v)`
-    Hat,
-    /// `vee(A)`
-    Vee,
-    /// `norm(v)`
-    Norm,
-    /// `diag(a, b, c)`
-    Diag,
-    /// `identity(3)`
-    Identity,
-    /// `rot_x(a)`, `rot_y(a)`, `rot_z(a)`
-    About(usize),
-    /// `rot(axis, a)`
-    Rot,
-    /// `body_rate(R)`
-    BodyRate,
-    /// `space_rate(R)`
-    SpaceRate,
-    /// `velocity_at(p, R, c)`
-    VelocityAt,
-    /// `kinetic(m, p)`, `kinetic(m, I, p, R)`
-    Kinetic,
-}
-
-/// Their names, and how calls of them read.
-const TENSORS: [(&str, Tensor, &str); 15] = [
-    ("diff", Tensor::Diff, "diff(e, x)"),
-    ("transpose", Tensor::Transpose, "transpose(A)"),
-    ("hat", Tensor::Hat, "hat(v)"),
-    ("vee", Tensor::Vee, "vee(A)"),
-    ("norm", Tensor::Norm, "norm(v)"),
-    ("diag", Tensor::Diag, "diag(a, b, c)"),
-    ("identity", Tensor::Identity, "identity(3)"),
-    ("rot_x", Tensor::About(0), "rot_x(a)"),
-    ("rot_y", Tensor::About(1), "rot_y(a)"),
-    ("rot_z", Tensor::About(2), "rot_z(a)"),
-    ("rot", Tensor::Rot, "rot(axis, a)"),
-    ("body_rate", Tensor::BodyRate, "body_rate(R)"),
-    ("space_rate", Tensor::SpaceRate, "space_rate(R)"),
-    ("velocity_at", Tensor::VelocityAt, "velocity_at(p, R, c)"),
-    ("kinetic", Tensor::Kinetic, "kinetic(m, I, p, R)"),
-];
 
 /// Whether a function of the language has this name.
 pub(super) fn is_built_in(name: &str) -> bool {
     Called::named(name).is_some() || Tensor::named(name).is_some() || name == "sum" || name == "der"
-}
-
-/// The names of the functions of vectors, matrices and bodies.
-pub(super) fn tensor_names<'a>() -> impl Iterator<Item = &'a str> {
-    TENSORS.iter().map(|(name, ..)| *name)
-}
-
-impl Tensor {
-    pub(super) fn named(name: &str) -> Option<Self> {
-        TENSORS.iter().find(|(known, ..)| *known == name).map(|(_, tensor, _)| *tensor)
-    }
-
-    /// The least and the largest number of arguments.
-    fn arity(self) -> (usize, usize) {
-        match self {
-            Self::Diff | Self::Rot => (2, 2),
-            Self::Diag => (1, usize::MAX),
-            Self::VelocityAt => (3, 3),
-            Self::Kinetic => (2, 4),
-            _ => (1, 1),
-        }
-    }
 }
 
 impl Resolver {
@@ -97,15 +26,12 @@ impl Resolver {
     ) -> Outcome<()> {
         let (least, most) = tensor.arity();
         if given < least || given > most || (tensor == Tensor::Kinetic && given == 3) {
-            let usage =
-                TENSORS.iter().find(|(known, ..)| *known == name.text).map_or("", |(_, _, usage)| usage);
+            let usage = usage(&name.text).unwrap_or_default();
             let wanted = match tensor {
                 Tensor::Kinetic => "2 or 4 arguments".to_owned(),
                 _ if least == 1 => "1 argument".to_owned(),
                 _ => format!("{least} arguments"),
             };
-            let usage =
-                if tensor == Tensor::Kinetic { "kinetic(m, p)` or `kinetic(m, I, p, R)" } else { usage };
             let what = format!("`{}` takes {wanted}, and {given} are given", name.text);
             let error = Diagnostic::new(expr.extent, what).way_out(format!("write `{usage}`"));
             return Err(self.report(expr, error));

@@ -6,6 +6,7 @@ use super::ast::{Expr, ExprKind, Factor, Name, Place, Sign};
 use super::habits;
 use super::limits;
 use super::number::number;
+use super::render::render;
 use super::stream::Stream;
 use super::vocabulary::is_function;
 use crate::report::{Diagnostic, Extent};
@@ -126,6 +127,9 @@ impl Stream {
     pub(crate) fn index_or_part(&mut self) -> Result<Expr, Diagnostic> {
         let start = self.position();
         let index = self.expression()?;
+        if self.at_word("in") {
+            return Err(self.loop_in_an_index(start));
+        }
         if !self.at_marks("..") || self.at_marks("..=") {
             return Ok(index);
         }
@@ -133,6 +137,18 @@ impl Stream {
         let end = self.expression()?;
         let kind = ExprKind::Range(Box::new(index), Box::new(end));
         Ok(Expr { kind, extent: self.since(start) })
+    }
+
+    /// `x[i in 0..4]` where `x` is used, as on the left of a line of the anchor.
+    fn loop_in_an_index(&mut self, start: usize) -> Diagnostic {
+        let variable = render(self.consumed(start));
+        while self.advance().is_some() {}
+        let range = render(self.consumed(start));
+        Diagnostic::new(self.since(start), "a range in the index of a name that is declared elsewhere").way_out(
+            format!(
+                "write `[{variable}]`, with `for {range} {{ … }}` around the line or `sum({range}: …)` around a term"
+            ),
+        )
     }
 
     /// `[i][j]`, at most two, and parts `[0..2]`.

@@ -1,6 +1,6 @@
 //! The lines of sections: equations, definitions, anchor lines, brackets, forces, comparisons.
 
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
 use super::ast::{
     AnchorLine, BracketLine, Comparison, Definition, Equation, Expr, Force, MethodDerivative, Momentum, Name,
@@ -9,6 +9,7 @@ use super::ast::{
 use super::habits;
 use super::items::END;
 use super::names::is_mark;
+use super::render::render;
 use super::stream::Stream;
 use super::vocabulary::TYPES;
 use crate::report::{Diagnostic, Extent};
@@ -65,12 +66,38 @@ impl Stream {
     /// Documentation and a label, where there are any.
     pub(super) fn label(&mut self) -> Result<(TokenStream, Option<Name>), Diagnostic> {
         let docs = self.docs()?;
-        let labelled = matches!(self.peek(), Some(TokenTree::Ident(_)))
-            && self.peek_at(1).is_some_and(|token| is_mark(token, ':'))
-            && !self.peek_at(2).is_some_and(|token| is_mark(token, ':'));
-        let label = if labelled { Some(self.name("a label")?) } else { None };
-        self.eat(if labelled { ":" } else { "" });
-        Ok((docs, label))
+        let is_label = matches!(self.peek(), Some(TokenTree::Ident(_)));
+        let indices = (1..self.tokens().len()).take_while(|k| self.bracket_at(*k).is_some()).count();
+        let behind = |k| self.peek_at(k).is_some_and(|token| is_mark(token, ':'));
+        if !is_label || !behind(1 + indices) || behind(2 + indices) {
+            return Ok((docs, None));
+        }
+        let label = self.name("a label")?;
+        self.no_index(&label)?;
+        self.eat(":");
+        Ok((docs, Some(label)))
+    }
+
+    /// The brackets that are so far ahead.
+    fn bracket_at(&self, ahead: usize) -> Option<&Group> {
+        match self.peek_at(ahead) {
+            Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => Some(group),
+            _ => None,
+        }
+    }
+
+    /// Labels have no index: one inside `for` names an array by itself.
+    fn no_index(&self, label: &Name) -> Result<(), Diagnostic> {
+        let Some(group) = self.bracket_at(0) else { return Ok(()) };
+        let inside: Vec<TokenTree> = group.stream().into_iter().collect();
+        let label = &label.text;
+        let way_out = match inside.get(1) {
+            Some(TokenTree::Ident(word)) if word == "in" => {
+                format!("write `for {} {{ {label}: … }}`, which gives an array `{label}`", render(&inside))
+            }
+            _ => format!("write `{label}: …`: inside of `for` it gives an array `{label}`"),
+        };
+        Err(Diagnostic::new(Extent::at(group.span()), "a label has no index").way_out(way_out))
     }
 
     /// `name = expr`, `name[0] = expr`, `name[i in 0..4] = expr`
@@ -201,6 +228,7 @@ impl Stream {
     pub(crate) fn symmetry(&mut self) -> Result<Symmetry, Diagnostic> {
         let docs = self.docs()?;
         let label = self.name("a label")?;
+        self.no_index(&label)?;
         self.colon("a symmetry reads `label: …;`")?;
         let start = self.position();
         let value = self.expression()?;

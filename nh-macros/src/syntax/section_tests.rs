@@ -324,6 +324,37 @@ fn errors_in_lets_and_blocks_are_explained() {
         ),
         ("constraints { for i in 0..3; w = 0 }", "expected the items of the `for` in braces after `3`"),
         (
+            "anchor { der(x[i in 0..2]) = w[i]; }",
+            "a range in the index of a name that is declared elsewhere\nhelp: write `[i]`, with `for i in 0..2 { … }` \
+             around the line or `sum(i in 0..2: …)` around a term",
+        ),
+        (
+            "forces { x[i in 0..2]: w[i]; }",
+            "a range in the index of a name that is declared elsewhere\nhelp: write `[i]`, with `for i in 0..2 { … }` \
+             around the line or `sum(i in 0..2: …)` around a term",
+        ),
+        (
+            "lagrangian { w[i in 0..2]^2 }",
+            "a range in the index of a name that is declared elsewhere\nhelp: write `[i]`, with `for i in 0..2 { … }` \
+             around the line or `sum(i in 0..2: …)` around a term",
+        ),
+        (
+            "constraints { for i in 0..2 { roll[i]: w[i] = 0; } }",
+            "a label has no index\nhelp: write `roll: …`: inside of `for` it gives an array `roll`",
+        ),
+        (
+            "holonomic { rod[i in 0..2]: x[i] = 0; }",
+            "a label has no index\nhelp: write `for i in 0..2 { rod: … }`, which gives an array `rod`",
+        ),
+        (
+            "symmetries { turn[i in 0..2]: w[i]; }",
+            "a label has no index\nhelp: write `for i in 0..2 { turn: … }`, which gives an array `turn`",
+        ),
+        (
+            "impacts { stop[i in 0..2]: x[i] >= 0; }",
+            "a label has no index\nhelp: write `for i in 0..2 { stop: … }`, which gives an array `stop`",
+        ),
+        (
             "lagrangian { for i in 0..3 { x } }",
             "`for` has no place in an expression\nhelp: a sum is written `sum(i in 0..4: …)`; `for` goes around whole items",
         ),
@@ -359,6 +390,12 @@ fn errors_between_sections_are_explained() {
             "outputs { let h(u) = u; y = h(1); }",
             "the function `h` stands inside a section\nhelp: put its `let` between the sections, where all of them \
              know it"
+                .to_owned(),
+        ),
+        (
+            "for i in 0..2 { brackets so(3) { w[i] } }",
+            "a `for` around sections\nhelp: it goes around the items inside of one: `brackets { for i in 0..3 { … } }`; \
+             blocks such as `brackets so(3) { … }` are written one by one"
                 .to_owned(),
         ),
         ("inputs { a } inputs { b }", "a second `inputs`\n`inputs` was declared above already\nhelp: move its content into the first one".to_owned()),

@@ -359,6 +359,12 @@ fn probably_meant(
 /// A section that does not exist.
 fn unknown(keyword: &Name) -> Diagnostic {
     let error = Diagnostic::new(keyword.extent(), format!("unknown section `{}`", keyword.text));
+    if keyword.text == "for" {
+        return Diagnostic::new(keyword.extent(), "a `for` around sections").way_out(
+            "it goes around the items inside of one: `brackets { for i in 0..3 { … } }`; blocks such as `brackets so(3) { … }` \
+             are written one by one",
+        );
+    }
     match did_you_mean(&keyword.text, SECTIONS) {
         Some(question) => error.way_out(question),
         None => error.way_out(format!("sections: {}", SECTIONS.join(", "))),

@@ -18,4 +18,12 @@ struct S { m: f64 }
 )]
 struct T { m: f64 }
 
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
+    outputs { place = [x, y, z]; }
+    track { der(x), y }
+)]
+struct U { m: f64 }
+
 fn main() {}

@@ -17,6 +17,10 @@ fn unknown_names() {
         ("base { x } lagrangian { PI }", "unknown name `PI`\nhelp: did you mean `pi`?"),
         ("base { x } lagrangian { time }", "unknown name `time`\nhelp: the time is `t`"),
         (
+            "base { R[2][2] } on { transpose(R) * R = identity; } lagrangian { R[0][0] }",
+            "unknown name `identity`\nhelp: the function of this name is called as `identity(3)`",
+        ),
+        (
             "base { theta } basis { w } anchor { der(theta) = w; } lagrangian { theta_dot^2 }",
             "unknown name `theta_dot`\nhelp: the rate of `theta` is written `der(theta)`",
         ),

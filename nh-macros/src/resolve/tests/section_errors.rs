@@ -367,4 +367,9 @@ fn facts() {
         "the two sides have different shapes\non the left is a vector of 2 entries, on the right a vector of 3 \
          entries",
     )]);
+    assert_errors(&[(
+        "base { R[3][3] } lagrangian { 1 } on { transpose(R) * R = 1; }",
+        "the two sides have different shapes\non the left is a matrix of 3 × 3 entries, on the right a number\nhelp: the \
+         matrix with ones on its diagonal is `identity(3)`; only the literal `0` has any shape",
+    )]);
 }

@@ -95,6 +95,24 @@ fn sections_have_the_units_of_what_they_generate() {
 }
 
 #[test]
+fn impulses_have_the_units_of_their_rows() {
+    let declared = |touch: &str| {
+        format!(
+            "base {{ x, y, phi }} lagrangian {{ m / 2 * (der(x)^2 + der(y)^2) + J / 2 * der(phi)^2 }}
+             impacts {{ touch: y >= r, der(x) + r * der(phi) = 0; grip: der(phi) = 0; }}
+             units {{ x, y, r = m; phi = rad; m = kg; touch = {touch}; grip = N m s; }}"
+        )
+    };
+    let item = "struct S { m: f64, J: f64, r: f64 }";
+    let found = units(&declared("N s"), item);
+    for said in ["touch[0]: N s", "touch[1]: N s", "grip: N m s"] {
+        assert!(found.contains(&said.to_owned()), "{found:?}");
+    }
+    let wrong = messages(&declared("N"), item);
+    assert!(wrong.len() == 1 && wrong[0].starts_with("the units do not fit: "), "{wrong:#?}");
+}
+
+#[test]
 fn a_model_may_have_no_units() {
     let found = units(
         "base { x, q } lagrangian { (der(x)^2 + der(q)^2) / 2 } units { x, q, t, lagrangian = 1; }",
