@@ -10,7 +10,12 @@ use crate::Scalar;
 ///
 /// What is written for any [`Scalar`], a declared system with a type parameter for example, is
 /// differentiated exactly by evaluating it with jets. Where a function has no derivative the partial
-/// derivatives are not finite, except those of `abs`, `sign`, `min` and `max`, which are one-sided.
+/// derivatives are not finite, except those of `abs`, `sign`, `min` and `max`, which are one-sided, or zero as that of
+/// `abs` at zero.
+///
+/// A product with a factor that is zero has a derivative wherever that factor has one, whether the other one has or not
+/// (`x √x`, and the drag `v |v|` of a velocity in a plane): it is that of the factor times the other one, as long as this is
+/// continuous, which all functions are there but `atan2` at the origin.
 ///
 /// ```
 /// use nonholonomic::{Jet, Scalar};
@@ -84,6 +89,19 @@ impl<T: Scalar, const N: usize, const M: usize> Jet<T, N, M> {
     }
 }
 
+/// The derivative of a factor that stands beside `zero` in a product: none where that is zero, and has a derivative that is
+/// finite, while the factor has none. Of second derivatives nothing is known there.
+#[inline]
+fn beside<T: Scalar>(zero: T, derivative: T, of_zero: T) -> T {
+    if T::DERIVATIVES > 0 {
+        return derivative;
+    }
+    // what is not finite gives no zero
+    let where_finite = |number: T, then: T, otherwise: T| T::ONE.select_gt(number * T::ZERO, then, otherwise);
+    let left = where_finite(derivative, derivative, where_finite(of_zero, T::ZERO, derivative));
+    zero.abs().select_gt(T::ZERO, derivative, left)
+}
+
 impl<T: Scalar, const N: usize, const M: usize> Default for Jet<T, N, M> {
     fn default() -> Self {
         Self::ZERO
@@ -110,8 +128,12 @@ impl<T: Scalar, const N: usize, const M: usize> Mul for Jet<T, N, M> {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
+        let value = self.value * other.value;
         let partial = |a: T, b: T| a.mul_add(other.value, self.value * b);
-        self.combined(other, self.value * other.value, partial)
+        if self.value.all_ne(T::ZERO) && other.value.all_ne(T::ZERO) {
+            return self.combined(other, value, partial);
+        }
+        self.combined(other, value, |a, b| partial(beside(other.value, a, b), beside(self.value, b, a)))
     }
 }
 
@@ -121,7 +143,10 @@ impl<T: Scalar, const N: usize, const M: usize> Div for Jet<T, N, M> {
     #[allow(clippy::suspicious_arithmetic_impl)] // the quotient rule
     fn div(self, other: Self) -> Self {
         let quotient = self.value / other.value;
-        self.combined(other, quotient, |a, b| (a - quotient * b) / other.value)
+        if quotient.all_ne(T::ZERO) {
+            return self.combined(other, quotient, |a, b| (a - quotient * b) / other.value);
+        }
+        self.combined(other, quotient, |a, b| (a - quotient * beside(quotient, b, a)) / other.value)
     }
 }
 
@@ -185,7 +210,12 @@ impl<T: Scalar, const N: usize, const M: usize> Scalar for Jet<T, N, M> {
         atan: |x, _| x.mul_add(x, T::ONE).recip();
         sinh: |x, _| x.cosh();
         cosh: |x, _| x.sinh();
-        tanh: |_, tanh| T::ONE - tanh * tanh;
+        tanh: |x, tanh| {
+            // far out all digits cancel in that difference
+            let falling = (x.abs() * T::from_f64(-2.0)).exp();
+            let square = (T::ONE + falling) * (T::ONE + falling);
+            x.abs().select_gt(T::ONE, T::from_f64(4.0) * falling / square, T::ONE - tanh * tanh)
+        };
         exp: |_, exp| exp;
         ln: |x, _| x.recip();
         abs: |x, _| x.sign();
@@ -199,8 +229,14 @@ impl<T: Scalar, const N: usize, const M: usize> Scalar for Jet<T, N, M> {
     }
     #[inline]
     fn atan2(self, x: Self) -> Self {
-        let square = self.value.mul_add(self.value, x.value * x.value);
-        self.combined(x, self.value.atan2(x.value), |dy, dx| (x.value * dy - self.value * dx) / square)
+        // by the quotient of the smaller by the larger: squares may leave the range of the numbers
+        let (steep, flat) = (self.value.abs(), x.value.abs());
+        let larger = steep.select_gt(flat, self.value, x.value);
+        let quotient = steep.select_gt(flat, x.value, self.value) / larger;
+        let by_y = steep.select_gt(flat, quotient, T::ONE);
+        let by_x = steep.select_gt(flat, T::ONE, quotient);
+        let scale = larger * quotient.mul_add(quotient, T::ONE);
+        self.combined(x, self.value.atan2(x.value), |dy, dx| (by_y * dy - by_x * dx) / scale)
     }
     #[inline]
     fn powf(self, exponent: Self) -> Self {

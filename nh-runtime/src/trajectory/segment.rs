@@ -86,19 +86,22 @@ where
         is_within.then(|| self.at_fraction((time - from) / (to - from)))
     }
 
-    /// The barycentric formula: Σ wⱼ/(s − sⱼ) xⱼ / Σ wⱼ/(s − sⱼ), wⱼ = ±1, halved at the ends.
+    /// The barycentric formula: Σ wⱼ δ/(s − sⱼ) xⱼ / Σ wⱼ δ/(s − sⱼ), wⱼ = ±1, halved at the ends, with the distance δ of
+    /// the nearest node, since the inverse of what is as near as time resolves is beyond all numbers.
     pub(super) fn at_fraction(&self, s: X::Scalar) -> X {
         let zero = X::Scalar::ZERO;
+        let distances: [X::Scalar; P] = core::array::from_fn(|index| s - node::<X::Scalar, P>(index));
+        let nearest = distances.iter().fold(X::Scalar::ONE, |least, distance| least.min(distance.abs()));
         let mut sum = X::Dim::vec(zero);
         let mut weights = zero;
         let mut sign = X::Scalar::ONE;
-        for (index, state) in self.nodes.iter().enumerate() {
-            let distance = s - node::<X::Scalar, P>(index);
+        for (index, (state, &distance)) in self.nodes.iter().zip(&distances).enumerate() {
             if distance == zero {
                 return *state;
             }
             let is_end = index == 0 || index + 1 == P;
-            let weight = (if is_end { X::Scalar::from_f64(0.5) } else { X::Scalar::ONE }) * sign / distance;
+            let half = if is_end { X::Scalar::from_f64(0.5) } else { X::Scalar::ONE };
+            let weight = half * sign * (nearest / distance);
             for (sum, &x) in sum.as_mut().iter_mut().zip(state.to_array().as_ref()) {
                 *sum = x.mul_add(weight, *sum);
             }

@@ -74,6 +74,30 @@ fn motions_are_kept_at_any_time() {
     }
 }
 
+/// Beside an end of a step, or another place where a state is kept, by the least that times can differ there.
+#[test]
+fn motions_are_kept_as_near_to_the_ends_as_times_are() {
+    let start = Plane { q: 3.0, p: -1e9 };
+    for (from, to) in [(0.0, 1.0), (0.0, -1e-3), (1.0, 0.0), (-0.5, 0.5), (0.0, 1e-300)] {
+        let mut sim = Integrator::new(Driven, Rk4::new(1.0), from, start);
+        let mut motion: Trajectory<_, _> = Trajectory::new(Vec::new());
+        sim.record(to, &mut motion).unwrap();
+        let end = *sim.state();
+        for least in [5e-324, 1e-310, f64::MIN_POSITIVE, 1e-303] {
+            for (place, state) in [(from, start), (to, end)] {
+                let inwards = if (from < to) == (place == from) { least } else { -least };
+                let kept = motion.at(place + inwards).expect("it is within");
+                for (kept, there) in kept.to_array().into_iter().zip(state.to_array()) {
+                    assert!(
+                        (kept - there).abs() < 1e-14 * there.abs(),
+                        "{place} {inwards:e}: {kept:e} {there:e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn a_full_buffer_is_said_and_the_run_goes_on_in_another() {
     let mut sim = Integrator::new(Driven, Rk4::new(0.1), 0.0, START);
