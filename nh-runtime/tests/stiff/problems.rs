@@ -1,8 +1,8 @@
-//! Six stiff problems of the literature with their Jacobians (Hairer, Wanner, Solving Ordinary Differential
+//! Stiff problems of the literature with their Jacobians (Hairer, Wanner, Solving Ordinary Differential
 //! Equations II, section IV.10; Mazzia, Magherini, Test Set for Initial Value Problem Solvers, 2008).
 
 use nonholonomic::prelude::*;
-use nonholonomic::{D, Dynamics, Jacobian};
+use nonholonomic::{D, Jacobian};
 
 /// A state of N numbers.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ macro_rules! state {
         }
     )*};
 }
-state!(2 3 4 8 40);
+state!(2 3 4 8 20 40);
 
 /// A problem: its equations, and what it is measured by.
 pub(crate) trait Problem<const N: usize>: Jacobian<State = Numbers<N>, Input = ()> + Copy {
@@ -44,7 +44,7 @@ macro_rules! system {
     ($name:ident, $n:literal, $f:expr, $jacobian:expr) => {
         #[derive(Clone, Copy, Debug)]
         pub(crate) struct $name;
-        impl Dynamics for $name {
+        impl nonholonomic::Dynamics for $name {
             type State = Numbers<$n>;
             type Input = ();
             fn derivative(&self, _t: f64, state: &Numbers<$n>, (): &()) -> Numbers<$n> {
@@ -52,8 +52,8 @@ macro_rules! system {
                 Numbers(f(&state.0))
             }
         }
-        impl Jacobian for $name {
-            type InputDim = D<0>;
+        impl nonholonomic::Jacobian for $name {
+            type InputDim = nonholonomic::D<0>;
             fn state_jacobian(&self, _t: f64, state: &Numbers<$n>, (): &()) -> [[f64; $n]; $n] {
                 let jacobian: fn(&[f64; $n]) -> [[f64; $n]; $n] = $jacobian;
                 jacobian(&state.0)
@@ -64,6 +64,7 @@ macro_rules! system {
         }
     };
 }
+pub(crate) use system;
 
 system!(VanDerPol, 2, |[a, b]| [*b, ((1.0 - a * a) * b - a) / 1e-6], |[a, b]| [
     [0.0, 1.0],
