@@ -39,7 +39,7 @@ impl Bared {
         }
         // two of them tell enough
         let touched = |graph: &Graph, i: usize| -> Vec<usize> {
-            (0..n).filter(|j| *j != i && !graph.vanishes_by_identity(matrix[i][*j])).take(2).collect()
+            (0..n).filter(|j| *j != i && !graph.is_literal_zero(matrix[i][*j])).take(2).collect()
         };
         let touched: Vec<Vec<usize>> = (0..n).map(|i| touched(graph, i)).collect();
         let (mut hanging, mut left) = (Vec::new(), matrix.clone());

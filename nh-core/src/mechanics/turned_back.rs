@@ -12,6 +12,9 @@ use super::velocity_forms::VelocityForms;
 use crate::algebra::{Function, Graph, Node};
 use crate::id::{ExprId, SymbolId};
 
+/// Forms with more operations than this are not looked at: as those of bodies in space have.
+const LONGEST: u64 = 160;
+
 impl VelocityForms {
     /// Turns pairs of forms in axes of their own back, among the forms and among the squares of them.
     pub(super) fn turn_back(&mut self, graph: &mut Graph, velocities: &[SymbolId], squares: &mut [Square]) {
@@ -53,7 +56,9 @@ impl VelocityForms {
 fn own_axes(graph: &Graph, squares: &[Square]) -> Vec<usize> {
     let alike = |k: usize| (0..squares.len()).filter(move |l| *l != k && squares[*l].1 == squares[k].1);
     let together = |k: usize, l: usize| axes(graph, &squares[k.min(l)].2, &squares[k.max(l)].2).is_some();
-    (0..squares.len()).filter(|k| alike(*k).next().is_some() && !alike(*k).any(|l| together(*k, l))).collect()
+    let is_short = |k: usize| graph.operation_count(&squares[k].2) <= LONGEST;
+    let is_alone = |k: &usize| alike(*k).next().is_some() && !alike(*k).any(|l| together(*k, l));
+    (0..squares.len()).filter(|k| is_alone(k) && is_short(*k)).collect()
 }
 
 /// The sections on which two forms are (cos a, −sin a) and (sin a, cos a), and a.

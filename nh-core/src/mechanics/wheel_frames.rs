@@ -60,10 +60,13 @@ impl WheelFrames {
         residuals: &[ExprId],
         forms: &mut VelocityForms,
     ) -> Option<Self> {
+        if distribution.dependent.is_empty() {
+            return None;
+        }
         let mut squares = squares(graph, velocities, forms);
         forms.turn_back(graph, velocities, &mut squares);
         let points = points(graph, &squares);
-        if points.is_empty() || distribution.dependent.is_empty() {
+        if points.is_empty() {
             return None;
         }
         let independent = |symbol: &SymbolId| distribution.independent.contains(symbol);
