@@ -49,8 +49,16 @@ const ASKED: usize = 8;
 /// among them, since `validate` checks it.
 #[must_use]
 pub fn domain(model: &mut Model, facts: &Facts) -> Vec<Condition> {
-    let open = not_by_ranges(model, facts);
+    let open = not_by_ranges(model, facts, 0);
     not_proved(model, open)
+}
+
+/// The conditions under which the derivatives of the equations have values, as far as the equations do not have them: a root
+/// of what vanishes has a value and no derivative.
+#[must_use]
+pub fn domain_of_derivatives(model: &mut Model, facts: &Facts, of_equations: &[Condition]) -> Vec<Condition> {
+    let open = not_by_ranges(model, facts, 1);
+    beyond(model, open, of_equations)
 }
 
 /// The conditions under which further expressions have values, as far as the equations do not have them.
@@ -63,6 +71,11 @@ pub fn domain_of(
 ) -> Vec<Condition> {
     let mut open = Vec::new();
     add_open(model, facts, values, derivatives, &mut open);
+    beyond(model, open, of_equations)
+}
+
+/// Those of some conditions that may fail where the equations have values.
+fn beyond(model: &mut Model, mut open: Vec<Condition>, of_equations: &[Condition]) -> Vec<Condition> {
     open.extend(of_equations);
     let mut open = without_implied(&open);
     open.retain(|condition| !of_equations.contains(condition));
@@ -97,11 +110,11 @@ pub fn with_zeros(model: &mut Model, divisors: &[ExprId]) -> Vec<ExprId> {
     left
 }
 
-/// Those that ranges alone do not prove.
-fn not_by_ranges(model: &Model, facts: &Facts) -> Vec<Condition> {
+/// Those that ranges alone do not prove, of what differentiates the equations so many times.
+fn not_by_ranges(model: &Model, facts: &Facts, times: u32) -> Vec<Condition> {
     let mut found: Vec<Condition> = Vec::new();
     let mut look_at =
-        |roots: &[ExprId], derivatives: u32| add_open(model, facts, roots, derivatives, &mut found);
+        |roots: &[ExprId], derivatives: u32| add_open(model, facts, roots, derivatives + times, &mut found);
     // the equations differentiate L twice, what else moves once, and forces and rates of auxiliary states not at all
     look_at(&[model.lagrangian.value], 2);
     let mut rest: Vec<ExprId> = differentiated(model).into_iter().map(|(_, value, _)| value).collect();

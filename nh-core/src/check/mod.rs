@@ -50,7 +50,7 @@ pub use conservative::{moving_constraint, not_conservative};
 pub use constraints::{Constraints, constraints};
 pub use declared::{declared_expressions, declared_on};
 pub(crate) use dependence::{not_asked, with_all_roots};
-pub use domain::{Condition, domain, domain_of, with_zeros};
+pub use domain::{Condition, domain, domain_of, domain_of_derivatives, with_zeros};
 pub use embedding::embedding;
 pub use formulation::{Chosen, choose_formulation};
 pub(crate) use formulation::{eliminations, zeros};

@@ -11,11 +11,12 @@ mod singular_places;
 mod velocities_to_name;
 
 use crate::algebra::{Function2, Graph, Node};
-use crate::check::{Condition, domain, domain_of, not_conservative, with_zeros};
+use crate::check::{Condition, domain, domain_of, domain_of_derivatives, not_conservative, with_zeros};
 use crate::compile::{Derived, Proved};
 use crate::geometry::suggested_velocities::Suggested;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::moving_energy_section;
+use crate::model::Request;
 
 pub(crate) use bracket_entries::{BracketEntries, Jacobi};
 pub(crate) use closure::Closure;
@@ -32,6 +33,8 @@ pub(crate) struct Findings {
     pub(crate) no_state_is_known: bool,
     /// Where alone the equations have a value.
     pub(crate) domain: Vec<Condition>,
+    /// What their derivatives need besides, where these are asked for.
+    pub(crate) of_derivatives: Vec<Condition>,
     /// The claimed first integrals, in their order.
     pub(crate) claims: Vec<FirstIntegral>,
     /// Where alone the quasi-velocities are a chart: these vanish somewhere.
@@ -82,6 +85,7 @@ impl Findings {
     pub(crate) fn of(proved: &mut Proved, derived: &Derived<'_>) -> Self {
         let no_state_is_known = real_states::undecided(proved);
         let domain = domain(&mut proved.model, &proved.facts);
+        let of_derivatives = of_derivatives(proved, &domain);
         let claims = first_integrals(proved, &domain);
         let chart_divisors = with_zeros(&mut proved.model, &proved.motion.divisors);
         let closure = Closure::of(proved, derived);
@@ -103,6 +107,7 @@ impl Findings {
         Self {
             no_state_is_known,
             domain,
+            of_derivatives,
             claims,
             chart_divisors,
             closure,
@@ -122,6 +127,17 @@ impl Findings {
             held_forces,
         }
     }
+}
+
+fn of_derivatives(proved: &mut Proved, of_equations: &[Condition]) -> Vec<Condition> {
+    let Proved { model, facts, .. } = proved;
+    let is_asked = |request: &Request| {
+        request.differentiates_the_motion() || matches!(request, Request::Taylor | Request::Divergence)
+    };
+    if !model.requests.iter().any(|(request, _)| is_asked(request)) {
+        return Vec::new();
+    }
+    domain_of_derivatives(model, facts, of_equations)
 }
 
 fn first_integrals(proved: &mut Proved, of_equations: &[Condition]) -> Vec<FirstIntegral> {

@@ -81,6 +81,12 @@ pub(super) fn lines(
     for condition in &findings.domain {
         lines.push(format!("the equations have a value only where {}", condition.stated(&model.graph)));
     }
+    for condition in &findings.of_derivatives {
+        let stated = condition.stated(&model.graph);
+        lines.push(format!(
+            "derivatives of the equations, which `emit` asks for, may have no value unless {stated}"
+        ));
+    }
     for divisor in &findings.chart_divisors {
         let text = shown(&model.graph, *divisor);
         lines.push(format!("the quasi-velocities are a chart only where {text} != 0"));

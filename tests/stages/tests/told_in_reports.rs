@@ -225,3 +225,23 @@ fn what_may_be_a_slip_is_told() {
     );
     assert!(!right.contains("Unused inputs") && !right.contains("negative everywhere"), "{right}");
 }
+
+/// The drag of a velocity in a plane has a value at rest, and its Jacobian divides by the root there.
+#[test]
+fn roots_are_told_where_derivatives_are_asked_for() {
+    let told = |forces: &str, emit: &str| {
+        let plane = "base { x, y } lagrangian { m/2*(der(x)^2 + der(y)^2) }";
+        let report = report(&format!("{plane} forces {{ {forces} }} {emit}"), FIELDS);
+        let lines = report.lines().filter_map(|line| line.split_once("may have no value unless "));
+        lines.map(|(_, condition)| condition.to_owned()).collect::<Vec<_>>()
+    };
+    let drag = "x: -a*sqrt(der(x)^2 + der(y)^2)*der(x);";
+    for emit in ["jacobian", "taylor", "adjoint_product"] {
+        assert_eq!(told(drag, &format!("emit {{ {emit} }}")), ["x_dot^2 + y_dot^2 > 0"], "{emit}");
+    }
+    assert!(told(drag, "").is_empty());
+    assert!(told("x: -a*sqrt(der(x)^2 + 1)*der(x);", "emit { jacobian }").is_empty());
+    // its value is enough for the derivative to have one
+    assert!(told("x: a/sqrt(x^2 + y^2);", "emit { jacobian }").is_empty());
+    assert_eq!(told("x: asin(y);", "emit { jacobian }"), ["|y| < 1"]);
+}
