@@ -29,22 +29,22 @@ const WORK: u64 = 2_000_000;
 
 impl Graph {
     /// Of equations that hold together at a real point at which their slopes are dependent: for each that depends on those
-    /// before it a combination with numbers that has no slope there. None where they are met at a regular point.
+    /// before it a combination with numbers that has no slope there. `None` where they are met at a regular point.
     pub(crate) fn combinations_without_slope(
         &mut self,
         equations: &[ExprId],
         demands: &[(ExprId, Demand)],
-    ) -> Vec<ExprId> {
-        if self.hold_at_a_regular_point(equations, demands) {
-            return Vec::new();
-        }
+    ) -> Option<Vec<ExprId>> {
         let all = together(equations, demands);
+        if self.are_met_at_a_regular_point(&all) {
+            return None;
+        }
         let slopes = limits::attempt(WORK, || {
             let mut search = Search::of(self, &all);
             let point = (0..PLACES).find_map(|place| search.point_from(place))?;
             Some(search.slopes_at(&point))
         });
-        let Some(Some(mut slopes)) = slopes else { return Vec::new() };
+        let Some(Some(mut slopes)) = slopes else { return Some(Vec::new()) };
         slopes.truncate(equations.len());
         let mut found = Vec::new();
         for multipliers in dependencies(&slopes) {
@@ -53,11 +53,9 @@ impl Graph {
             let terms: Vec<(Rational, ExprId)> = numbers.into_iter().zip(equations.iter().copied()).collect();
             found.push(self.linear_combination(&terms));
         }
-        found
+        Some(found)
     }
-}
 
-impl Graph {
     /// Numbers of two digits for what does not move, near to real points at which equations hold together: multipliers that
     /// depend on parameters are numbers there. Such as are not as is demanded of them are left out.
     pub(crate) fn numbers_near_points(
@@ -94,11 +92,6 @@ impl Graph {
             }
         }
         machines
-    }
-
-    /// Whether equations are proved to hold together at a real point at which their slopes are independent.
-    pub(crate) fn hold_at_a_regular_point(&self, equations: &[ExprId], demands: &[(ExprId, Demand)]) -> bool {
-        self.are_met_at_a_regular_point(&together(equations, demands))
     }
 
     /// Whether what is demanded of fixed symbols alone is so for these numbers.

@@ -53,7 +53,8 @@ pub(super) fn multiples_without_slope(model: &mut Model, functions: &[ExprId]) -
     let demands = on_the_base(model);
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
     let graph = &mut model.graph;
-    if let Some(why) = combination_without_slope(graph, functions, &demands, &coordinates) {
+    let combinations = graph.combinations_without_slope(functions, &demands).unwrap_or_default();
+    if let Some(why) = one_without_slope(graph, combinations, &coordinates) {
         return Some(why);
     }
     // multipliers may depend on parameters: these are numbers then, more than once, as they may touch by chance
@@ -67,24 +68,20 @@ pub(super) fn multiples_without_slope(model: &mut Model, functions: &[ExprId]) -
         let functions = given.apply_all(graph, functions);
         let demands: Vec<(ExprId, Demand)> =
             demands.iter().map(|(value, demand)| (given.apply(graph, *value), *demand)).collect();
-        if graph.hold_at_a_regular_point(&functions, &demands) {
-            return None;
-        }
-        if let Some(why) = combination_without_slope(graph, &functions, &demands, &coordinates) {
+        let combinations = graph.combinations_without_slope(&functions, &demands)?;
+        if let Some(why) = one_without_slope(graph, combinations, &coordinates) {
             found.push(format!("for {words}, and for other numbers that were tried, {why}"));
         }
     }
     (found.len() > 1).then(|| found.swap_remove(0))
 }
 
-/// Why one of the combinations of functions with numbers has no slope where it is 0.
-fn combination_without_slope(
+/// Why one of some combinations has no slope where it is 0.
+fn one_without_slope(
     graph: &mut Graph,
-    functions: &[ExprId],
-    demands: &[(ExprId, Demand)],
+    combinations: Vec<ExprId>,
     coordinates: &[SymbolId],
 ) -> Option<String> {
-    let combinations = graph.combinations_without_slope(functions, demands);
     let (why, _) = combinations.into_iter().find_map(|combination| {
         let combination = graph.simplify(combination);
         // of a product one factor may be 0 with a slope, and another without

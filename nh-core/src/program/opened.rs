@@ -39,21 +39,24 @@ pub(super) enum Closing {
     /// In closed form, by these values; C is what is left of a quadratic form that variables leave one after the other.
     OneByOne { values: Range<usize>, eliminated: Vec<Eliminated<usize>> },
     /// In closed form, by these values; C⁻¹ = D⁻¹ + σ a aᵀ for the unknowns at the places that do not hang on others.
-    DiagonalAndOne {
-        values: Range<usize>,
-        hanging: Vec<Hanging<usize>>,
-        rest: Vec<usize>,
-        /// 1 / D_i.
-        over: Range<usize>,
-        /// a.
-        along: Range<usize>,
-        /// σ.
-        weight: usize,
-    },
+    DiagonalAndOne { values: Range<usize>, inverse: DiagonalAndOne },
     /// In closed form, by these values; rows of C⁻¹ for the first of them, which alone others are made of.
     Inverted { values: Range<usize>, rows: Vec<Range<usize>> },
     /// By elimination with pivoting.
     Pivoted { matrix: Vec<Range<usize>>, right: Range<usize> },
+}
+
+/// C⁻¹ = D⁻¹ + σ a aᵀ by its places among the outputs.
+pub(super) struct DiagonalAndOne {
+    pub(super) hanging: Vec<Hanging<usize>>,
+    /// The unknowns that do not hang on others.
+    pub(super) rest: Vec<usize>,
+    /// 1 / D_i.
+    pub(super) over: Range<usize>,
+    /// a.
+    pub(super) along: Range<usize>,
+    /// σ.
+    pub(super) weight: usize,
 }
 
 impl Opened {
@@ -156,7 +159,8 @@ impl Opened {
                 let hanging = hanging.iter().map(|gone| gone.map(|entry| self.put(&[entry]).start)).collect();
                 let (over, along, rest) = (self.put(over), self.put(along), rest.clone());
                 let weight = self.put(&[*weight]).start;
-                Closing::DiagonalAndOne { values, hanging, rest, over, along, weight }
+                let inverse = DiagonalAndOne { hanging, rest, over, along, weight };
+                Closing::DiagonalAndOne { values, inverse }
             }
             Factors::OneByOne(eliminated) => {
                 let mut put = |entry: ExprId| self.put(&[entry]).start;

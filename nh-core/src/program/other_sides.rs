@@ -1,6 +1,6 @@
 //! Solutions of open systems for other right-hand sides, by what they were solved with, and what weighs these sides.
 
-use super::opened::{Closing, OpenSystem};
+use super::opened::{Closing, DiagonalAndOne, OpenSystem};
 use super::tape::Tape;
 use crate::algebra::{Graph, Matrix};
 use crate::id::{ExprId, SymbolId};
@@ -19,7 +19,7 @@ impl OpenSystem {
             Closing::Factorised { lower, diagonal, .. } => {
                 substituted(graph, tape, (lower, diagonal), residuals)
             }
-            Closing::DiagonalAndOne { .. } => self.by_one(graph, tape, residuals),
+            Closing::DiagonalAndOne { inverse, .. } => inverse.times(graph, tape, residuals),
             Closing::OneByOne { eliminated, .. } => {
                 let (forces, motions) = residuals.split_at(eliminated.len());
                 let values = Pushed::by(graph, tape, eliminated, (forces, motions)).values;
@@ -49,7 +49,7 @@ impl OpenSystem {
                 substituted(graph, tape, (lower, diagonal), slopes)
             }
             // which is symmetric
-            Closing::DiagonalAndOne { .. } => self.by_one(graph, tape, slopes),
+            Closing::DiagonalAndOne { inverse, .. } => inverse.times(graph, tape, slopes),
             Closing::OneByOne { eliminated, .. } => {
                 let zero = graph.zero();
                 let pushing = |variable: &Eliminated<usize>| {
@@ -82,11 +82,18 @@ impl OpenSystem {
         }
     }
 
-    /// The unknowns for another right-hand side where C⁻¹ = D⁻¹ + σ a aᵀ, but for those that hang on others.
-    fn by_one(&self, graph: &mut Graph, tape: &mut Tape, right: Vec<ExprId>) -> Vec<ExprId> {
-        let Closing::DiagonalAndOne { hanging, rest, over, along, weight, .. } = &self.closing else {
-            return right;
-        };
+    fn pivoted(&self, graph: &mut Graph, tape: &mut Tape, matrix: Matrix, right: Vec<ExprId>) -> Vec<ExprId> {
+        let unknowns: Vec<SymbolId> = self.unknowns.iter().map(|_| graph.new_symbol("")).collect();
+        let solution = unknowns.iter().map(|unknown| graph.symbol(*unknown)).collect();
+        tape.procedure.definitions.push(Definition::Solve { unknowns, matrix, right });
+        solution
+    }
+}
+
+impl DiagonalAndOne {
+    /// The unknowns for another right-hand side than that of the solution.
+    fn times(&self, graph: &mut Graph, tape: &mut Tape, right: Vec<ExprId>) -> Vec<ExprId> {
+        let Self { hanging, rest, over, along, weight } = self;
         let hanging: Vec<Hanging<ExprId>> =
             hanging.iter().map(|gone| gone.map(|place| tape.known_output(graph, place))).collect();
         let (over, along) = (tape.outputs(over).unwrap_or_default(), tape.outputs(along).unwrap_or_default());
@@ -117,13 +124,6 @@ impl OpenSystem {
             values[gone.place] = named(graph, value);
         }
         values
-    }
-
-    fn pivoted(&self, graph: &mut Graph, tape: &mut Tape, matrix: Matrix, right: Vec<ExprId>) -> Vec<ExprId> {
-        let unknowns: Vec<SymbolId> = self.unknowns.iter().map(|_| graph.new_symbol("")).collect();
-        let solution = unknowns.iter().map(|unknown| graph.symbol(*unknown)).collect();
-        tape.procedure.definitions.push(Definition::Solve { unknowns, matrix, right });
-        solution
     }
 }
 
