@@ -90,6 +90,8 @@ pub struct Model {
     pub routh: Vec<RouthDecl>,
     /// Facts about parameters (`assume`).
     pub assumptions: Vec<Assumption>,
+    /// The ranges that follow from them, once they are checked.
+    pub facts: Facts,
     /// What to generate beyond the default (`emit`).
     pub requests: Vec<(Request, Origin)>,
     /// The state variables and observables that are needed (`track`); all of them if not given.
@@ -122,6 +124,7 @@ impl Model {
 
     /// Rewrites what is declared by the identities that hold under the facts.
     pub(crate) fn assume(&mut self, facts: &Facts) {
+        self.facts = facts.clone();
         let graph = &mut self.graph;
         // what has another form in the equations is noted, and what has one beside them is not
         let (equations, beside) = (&mut Vec::new(), &mut Vec::new());

@@ -6,6 +6,7 @@ use crate::id::{ExprId, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::{Formulation, Model};
 use crate::phase_space::PhaseSpace;
+use crate::program::Limits;
 
 /// A system that has passed every check, with its functions derived.
 #[derive(Clone, Debug)]
@@ -56,6 +57,9 @@ pub struct System {
     pub equations: Vec<String>,
     /// The sections of a text in TeX about it, if that is asked for.
     pub latex: Option<String>,
+    /// Whether derivatives that are asked for tend to values where roots vanish by which they divide: what is emitted has to
+    /// have these.
+    pub derivatives_go_on: bool,
 }
 
 impl System {
@@ -71,6 +75,12 @@ impl System {
         let linearized = self.linearized.as_ref()?;
         let rows = linearized.outputs.get(self.derivative.outputs.len()..)?;
         Some(linearized.with_outputs(rows.to_vec()))
+    }
+
+    /// What is known of derivatives of the motion where lengths vanish by which they divide.
+    #[must_use]
+    pub fn limits_at_rest(&self) -> Limits {
+        if self.derivatives_go_on { Limits::WithoutQuotients } else { Limits::Open }
     }
 
     /// The numbers that the shapes of its functions are made of.

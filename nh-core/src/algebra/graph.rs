@@ -31,6 +31,8 @@ pub struct Graph {
     pub(super) simplifier: Simplifier,
     /// The normal forms that it has read.
     pub(super) attempts: Attempts,
+    /// Radicands that stand for what they are when they are multiplied out and divided by a number, with that number.
+    pub(super) kept_radicands: FxHashMap<ExprId, (ExprId, Rational)>,
     /// What was found of terms that cancel identically.
     pub(super) cancelling: Cancelling,
     /// How much rounding error rewriting may cost.

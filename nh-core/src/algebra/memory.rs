@@ -68,6 +68,8 @@ pub(super) struct Simplifier {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Image {
     pub(super) id: ExprId,
+    /// The same with its parts simplified, and not itself.
+    pub(super) of_parts: ExprId,
     pub(super) has_sum: bool,
     pub(super) has_angle: bool,
     /// Whether it had the budget of a whole expression.

@@ -1,6 +1,7 @@
 //! Where a declaration has no value: divisors that may vanish, roots and logarithms of what may be negative.
 
 use super::assumptions::on_the_base;
+use super::at_rest::has_slopes_at_rest;
 use super::declared::differentiated;
 use super::evidence::shown;
 use crate::algebra::{Demand, Facts, Function, Function2, Graph, Node, Rational};
@@ -59,6 +60,17 @@ pub fn domain(model: &mut Model, facts: &Facts) -> Vec<Condition> {
 pub fn domain_of_derivatives(model: &mut Model, facts: &Facts, of_equations: &[Condition]) -> Vec<Condition> {
     let open = not_by_ranges(model, facts, 1);
     beyond(model, open, of_equations)
+}
+
+/// Of such conditions, those without which the derivatives do not tend to values.
+#[must_use]
+pub fn without_slopes_at_rest(model: &mut Model, facts: &Facts, conditions: &[Condition]) -> Vec<Condition> {
+    let mut left = conditions.to_vec();
+    left.retain(|condition| match condition {
+        Condition::Positive(base) => !has_slopes_at_rest(model, facts, *base),
+        _ => true,
+    });
+    left
 }
 
 /// The conditions under which further expressions have values, as far as the equations do not have them.

@@ -1,6 +1,7 @@
 //! The checks: each proves one law of a declaration or says how it is broken.
 
 mod assumptions;
+mod at_rest;
 mod auxiliary;
 mod brackets;
 mod changed_signature;
@@ -50,7 +51,7 @@ pub use conservative::{moving_constraint, not_conservative};
 pub use constraints::{Constraints, constraints};
 pub use declared::{declared_expressions, declared_on};
 pub(crate) use dependence::{not_asked, with_all_roots};
-pub use domain::{Condition, domain, domain_of, domain_of_derivatives, with_zeros};
+pub use domain::{Condition, domain, domain_of, domain_of_derivatives, with_zeros, without_slopes_at_rest};
 pub use embedding::embedding;
 pub use formulation::{Chosen, choose_formulation};
 pub(crate) use formulation::{eliminations, zeros};

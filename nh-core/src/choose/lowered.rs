@@ -338,6 +338,10 @@ impl<'r, 'a> Run<'r, 'a> {
     }
 
     fn function(&mut self, function: Function, argument: Value) -> Result<Residue, Defect> {
+        // where it is not 0, a square root is positive
+        if function == Function::Sign && matches!(self.program.steps[argument], Step::Sqrt(_)) {
+            return Residue::of(&Rational::ONE).ok_or(Defect::Here);
+        }
         if let Some((angles, pass)) = &mut self.angles
             && let Some(expression) = angles.functions.get(&(function, argument))
         {

@@ -7,12 +7,13 @@ use std::fmt::Write;
 use super::ledger::Proof;
 use super::lowered::{Unproved, prove_program, prove_split};
 use super::sizes::TAKEN_FROM;
-use crate::algebra::{Accuracy, Graph};
+use crate::algebra::{Accuracy, Graph, Range};
 use crate::id::{Origin, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::Model;
 use crate::program::{
-    Program, Scheduled, Split, corrected, error_growth, error_growth_apart, schedules, split,
+    AtRest, Limits, Program, Scheduled, Split, at_rest, corrected, error_growth, error_growth_apart,
+    schedules, split,
 };
 use crate::violation::{Law, Violation};
 
@@ -27,6 +28,7 @@ pub struct Lowering {
     outcomes: RefCell<Vec<Result<Proof, Unproved>>>,
     /// What was lowered: a step of a projection, say, is printed in several methods.
     known: RefCell<Vec<Known>>,
+    divided_by_roots: RefCell<Vec<&'static str>>,
 }
 
 /// A procedure of a model whose program is known.
@@ -58,6 +60,41 @@ impl Lowering {
     #[must_use]
     pub fn program(&self, model: &Model, procedure: &Procedure) -> Program {
         self.finished(model, procedure, model.graph.accuracy() == Accuracy::Careful)
+    }
+
+    /// The program of a function that is, or may contain, a derivative: where lengths vanish by which it divides, it has
+    /// the values that it tends to, as far as it is proved to tend to some.
+    #[must_use]
+    pub fn derivative(
+        &self,
+        model: &Model,
+        (name, procedure): (&'static str, &Procedure),
+        limits: Limits,
+    ) -> Program {
+        let facts = &model.facts.symbols;
+        let range = |symbol| facts.get(&symbol).copied().unwrap_or(Range::ALL);
+        let is_careful = model.graph.accuracy() == Accuracy::Careful;
+        let AtRest { mended, divides_by_roots } =
+            at_rest(&self.finished(model, procedure, false), &range, limits);
+        let mended = mended.map(|program| if is_careful { corrected(&program) } else { program });
+        let proof = mended.as_ref().map(|program| prove_program(&model.graph, procedure, program));
+        let is_wrong = matches!(proof, Some(Err(Unproved::Wrong)));
+        if (divides_by_roots || is_wrong) && !self.divided_by_roots.borrow().contains(&name) {
+            self.divided_by_roots.borrow_mut().push(name);
+        }
+        match (mended, proof) {
+            (Some(program), Some(outcome)) if !is_wrong => {
+                self.note(outcome);
+                program
+            }
+            _ => self.program(model, procedure),
+        }
+    }
+
+    /// The functions among them that divide by roots for which that is not proved.
+    #[must_use]
+    pub fn divided_by_roots(&self) -> Vec<&'static str> {
+        self.divided_by_roots.borrow().clone()
     }
 
     /// The same program without corrections of rounding errors, where it has any: those of power series are zero.

@@ -107,7 +107,7 @@ pub(super) fn complete(
     functions.add_if(&REACTIONS, requested(model, Request::Reactions).then_some(derivation.reactions));
     functions.add_if(&GIBBS_APPELL, derivation.gibbs_appell);
     let system = parts.into_system(proved, (formulation, velocities), derivative, &conditions, (text, lines));
-    Ok(System { latex: in_tex, ..system })
+    Ok(System { latex: in_tex, derivatives_go_on: findings.of_derivatives.go_on, ..system })
 }
 
 /// What of the parameters must not vanish for the equations to determine the accelerations, beside what is known not to.

@@ -11,7 +11,9 @@ mod singular_places;
 mod velocities_to_name;
 
 use crate::algebra::{Function2, Graph, Node};
-use crate::check::{Condition, domain, domain_of, domain_of_derivatives, not_conservative, with_zeros};
+use crate::check::{
+    Condition, domain, domain_of, domain_of_derivatives, not_conservative, with_zeros, without_slopes_at_rest,
+};
 use crate::compile::{Derived, Proved};
 use crate::geometry::suggested_velocities::Suggested;
 use crate::id::{ExprId, SymbolId};
@@ -33,8 +35,8 @@ pub(crate) struct Findings {
     pub(crate) no_state_is_known: bool,
     /// Where alone the equations have a value.
     pub(crate) domain: Vec<Condition>,
-    /// What their derivatives need besides, where these are asked for.
-    pub(crate) of_derivatives: Vec<Condition>,
+    /// What holds of their derivatives, where these are asked for.
+    pub(crate) of_derivatives: OfDerivatives,
     /// The claimed first integrals, in their order.
     pub(crate) claims: Vec<FirstIntegral>,
     /// Where alone the quasi-velocities are a chart: these vanish somewhere.
@@ -69,6 +71,15 @@ pub(crate) struct Findings {
     pub(crate) suggested: Option<Suggested>,
     /// What forces act along that constraints hold.
     pub(crate) held_forces: Vec<String>,
+}
+
+/// Where the derivatives of the equations have values.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct OfDerivatives {
+    /// What they need besides what the equations do.
+    pub(crate) unless: Vec<Condition>,
+    /// Whether they tend to values wherever roots vanish by which they divide, and there are such roots.
+    pub(crate) go_on: bool,
 }
 
 /// Where a claimed first integral is one.
@@ -129,15 +140,22 @@ impl Findings {
     }
 }
 
-fn of_derivatives(proved: &mut Proved, of_equations: &[Condition]) -> Vec<Condition> {
+fn of_derivatives(proved: &mut Proved, of_equations: &[Condition]) -> OfDerivatives {
     let Proved { model, facts, .. } = proved;
     let is_asked = |request: &Request| {
         request.differentiates_the_motion() || matches!(request, Request::Taylor | Request::Divergence)
     };
     if !model.requests.iter().any(|(request, _)| is_asked(request)) {
-        return Vec::new();
+        return OfDerivatives::default();
     }
-    domain_of_derivatives(model, facts, of_equations)
+    let conditions = domain_of_derivatives(model, facts, of_equations);
+    // power series have no values that they tend to
+    if model.requests.iter().any(|(request, _)| *request == Request::Taylor) {
+        return OfDerivatives { unless: conditions, go_on: false };
+    }
+    let unless = without_slopes_at_rest(model, facts, &conditions);
+    let go_on = unless.is_empty() && !conditions.is_empty();
+    OfDerivatives { unless, go_on }
 }
 
 fn first_integrals(proved: &mut Proved, of_equations: &[Condition]) -> Vec<FirstIntegral> {

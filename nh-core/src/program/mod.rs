@@ -17,6 +17,9 @@
 //! Constants become numbers before 2 or after it (`fold`), or at last (`lower`), whichever is cheapest. What numbers alone
 //! give only with rounding errors becomes a number when it is printed (`known_numbers`).
 //!
+//! [`at_rest`] gives derivatives the values that they tend to where lengths vanish by which they divide
+//! (`vanishing_lengths`), as `orders_at_rest` proves it.
+//!
 //! [`corrected`] makes a program carry its rounding errors along; [`error_growth`] compares programs by
 //! theirs, and [`units_lost`] finds terms that cancel identically. [`Recurrences`] extend a program from numbers to power series in the time.
 
@@ -36,6 +39,7 @@ mod lower;
 mod measured_rounding;
 mod nary;
 mod opened;
+mod orders_at_rest;
 mod other_sides;
 mod pairs;
 #[cfg(test)]
@@ -51,6 +55,7 @@ mod step;
 mod tape;
 mod taylor;
 mod text;
+mod vanishing_lengths;
 mod vertex_order;
 mod where_defined;
 
@@ -59,9 +64,11 @@ pub use correct::corrected;
 pub use cost::{Cost, order};
 pub use interpret::{Arithmetic, interpret, interpret_in};
 pub use measured_rounding::{error_growth_apart_in_runs, error_growth_in_runs};
+pub use orders_at_rest::Limits;
 pub use rounding::{error_growth, error_growth_apart, reading_in_vain, units_lost};
 pub use rule::{Factor, Inner, Rule};
 pub use schedule::{Scheduled, schedule, schedule_grouping, schedule_roughly, schedules};
 pub use split::{Split, split};
 pub use step::{Program, Step, Value};
 pub use taylor::{Recurrences, Variation};
+pub use vanishing_lengths::{AtRest, at_rest};

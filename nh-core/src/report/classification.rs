@@ -81,7 +81,7 @@ pub(super) fn lines(
     for condition in &findings.domain {
         lines.push(format!("the equations have a value only where {}", condition.stated(&model.graph)));
     }
-    for condition in &findings.of_derivatives {
+    for condition in &findings.of_derivatives.unless {
         let stated = condition.stated(&model.graph);
         lines.push(format!(
             "derivatives of the equations, which `emit` asks for, may have no value unless {stated}"

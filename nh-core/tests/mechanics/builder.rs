@@ -1,6 +1,6 @@
 //! Resolved models by hand: names, then terms as texts.
 
-use nonholonomic_core::algebra::{Graph, Rational};
+use nonholonomic_core::algebra::{Facts, Graph, Rational};
 use nonholonomic_core::id::{ExprId, Id, Origin, SymbolId, Table};
 use nonholonomic_core::model::{
     AnchorDecl, BracketDecl, ConstraintDecl, Coordinate, Kinematics, Located, Model, OutputDecl, Parameter,
@@ -76,6 +76,7 @@ impl Builder {
             volume: None,
             hamilton_jacobi: None,
             assumptions: Vec::new(),
+            facts: Facts::default(),
             requests: Vec::new(),
             kinematics: if tangent { Kinematics::Tangent } else { Kinematics::Anchor(Vec::new()) },
             brackets: Vec::new(),

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use nonholonomic_core::functions::{self, Function, Shape, Signature, Sizes, TABLE, When};
 use nonholonomic_core::model::Request;
+use nonholonomic_core::program::Limits;
 use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
@@ -26,7 +27,10 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         part.items.extend(power::item(context, &printer.results));
     }
     for Function { signature, procedure } in system.functions.iter() {
-        let program = context.lowering.program(&system.model, procedure);
+        let is_of_motion =
+            [functions::DIVERGENCE.name, functions::PARAMETER_JACOBIAN.name].contains(&signature.name);
+        let limits = if is_of_motion { system.limits_at_rest() } else { Limits::Open };
+        let program = context.lowering.derivative(&system.model, (signature.name, procedure), limits);
         let mut body = body(context, scope, &program);
         if signature.shape == Shape::OverThePoint && !system.state_coordinates.is_empty() {
             // the coordinates are handed through

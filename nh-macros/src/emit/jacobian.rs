@@ -28,13 +28,13 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         return Part::default();
     };
     let (n, m) = sizes(context);
-    let mut all = together(context, scope, &context.lowering.program(&system.model, linearized));
+    let mut all = together(context, scope, &context.derivative(system, "linearized", linearized));
     all.extend(dependence(context, system, &jacobian));
     all.extend(super::slopes_of_return::method(context, system));
     let within = |columns: Range<usize>| {
         let row = |row: &[_]| row.get(columns.clone()).unwrap_or_default().to_vec();
         let outputs = jacobian.outputs.chunks((n + m).max(1)).flat_map(row).collect();
-        context.lowering.program(&system.model, &jacobian.with_outputs(outputs))
+        context.derivative(system, "jacobian", &jacobian.with_outputs(outputs))
     };
     let by_state = within(0..n);
     let state_body = body(context, scope, &by_state);

@@ -13,6 +13,11 @@ use super::setting::Context;
 /// `const REPORT`, with the operation counts of the named programs.
 pub(super) fn constant(context: &Context, system: &System, programs: &[(&str, &Program)]) -> TokenStream {
     let mut text = system.report.trim_end().to_owned();
+    let open = context.lowering.divided_by_roots();
+    if system.derivatives_go_on && !open.is_empty() {
+        text.push_str("\n\nDerivatives that may have no value where a root in the forces vanishes\n  ");
+        text.push_str(&open.join(", "));
+    }
     text.push_str("\n\nOperations per evaluation:\n");
     for (name, program) in programs {
         let cost = Cost::of(program);

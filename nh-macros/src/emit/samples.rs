@@ -1,6 +1,6 @@
 //! Verified systems written by hand, to test the emitters apart from the derivation.
 
-use nonholonomic_core::algebra::{Graph, Rational};
+use nonholonomic_core::algebra::{Facts, Graph, Rational};
 use nonholonomic_core::functions::{ENERGY, Functions, MULTIPLIERS, OUTPUTS, REACTIONS, RESIDUAL, VELOCITY};
 use nonholonomic_core::id::{ExprId, Id, Origin, SymbolId, Table};
 use nonholonomic_core::mechanics::{Definition, Procedure};
@@ -109,6 +109,7 @@ impl Builder {
             symmetric: Vec::new(),
             bodies: Vec::new(),
             assumptions: Vec::new(),
+            facts: Facts::default(),
             requests: Vec::new(),
             tracked: None,
             linearization: None,
@@ -179,6 +180,7 @@ impl Builder {
             report: "Derived by hand.".to_owned(),
             equations: vec!["x' = …".to_owned()],
             latex: None,
+            derivatives_go_on: false,
         }
     }
 }

@@ -6,6 +6,9 @@ use std::rc::Rc;
 
 use nonholonomic_core::choose::Lowering;
 use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::program::Program;
+use nonholonomic_core::system::System;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::{GenericParam, Generics};
@@ -50,6 +53,11 @@ pub(super) struct Locals {
 }
 
 impl<'a> Context<'a> {
+    /// The program of a derivative of the motion, with the values that it tends to at rest.
+    pub(super) fn derivative(&self, system: &System, name: &'static str, procedure: &Procedure) -> Program {
+        self.lowering.derivative(&system.model, (name, procedure), system.limits_at_rest())
+    }
+
     /// `in_state` are the coordinates, velocities and auxiliary states in the state, `basis` the velocities of all
     /// sections of the basis.
     pub(super) fn new(layout: &'a Layout, in_state: &[SymbolId], basis: &[SymbolId]) -> Self {

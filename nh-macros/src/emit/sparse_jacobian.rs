@@ -32,7 +32,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let values: Vec<_> = entries.into_iter().map(|(.., entry)| entry).collect();
     // 1. alone
     let mut methods = constants(context, &pattern);
-    let alone = context.lowering.program(&system.model, &jacobian.with_outputs(values.clone()));
+    let alone = context.derivative(system, "sparse_jacobian", &jacobian.with_outputs(values.clone()));
     let of_alone = body(context, scope, &alone);
     let (statements, entries) = (&of_alone.statements, array(&of_alone.outputs));
     let code = quote!(#statements #entries);
@@ -40,7 +40,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     // 2. with the derivative
     let rates = linearized.outputs.iter().copied().take(context.state.len());
     let outputs: Vec<_> = rates.chain(values).collect();
-    let together = context.lowering.program(&system.model, &linearized.with_outputs(outputs));
+    let together = context.derivative(system, "sparse_linearized", &linearized.with_outputs(outputs));
     let all = local("all");
     let entries = (0..pattern.len()).map(Literal::usize_unsuffixed).map(|place| quote!(#all.1[#place]));
     let places: Vec<_> = context.state.places(&quote!(#all.0)).into_iter().chain(entries).collect();

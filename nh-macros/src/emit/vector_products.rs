@@ -17,7 +17,7 @@ use super::symbols::{Argument, Scope};
 pub(super) fn emit(context: &Context, system: &System) -> Part {
     let mut part = Part::default();
     for VectorProduct { side, vector, procedure } in &system.products {
-        let program = context.lowering.program(&system.model, procedure);
+        let program = context.derivative(system, side.word(), procedure);
         let scope = scope(context, &system.model, &system.state(), (*side, vector));
         let body = body(context, &scope, &program);
         let n = context.state.len();

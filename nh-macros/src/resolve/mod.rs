@@ -55,6 +55,7 @@ mod tests;
 
 use std::collections::BTreeSet;
 
+use nonholonomic_core::algebra::Facts;
 use nonholonomic_core::id::{Origin, SymbolId};
 use nonholonomic_core::model::{Located, Model, Request};
 
@@ -209,6 +210,7 @@ impl Resolver {
             hamilton_jacobi,
             routh,
             assumptions,
+            facts: Facts::default(),
             requests,
             tracked,
             linearization,

@@ -226,7 +226,8 @@ fn what_may_be_a_slip_is_told() {
     assert!(!right.contains("Unused inputs") && !right.contains("negative everywhere"), "{right}");
 }
 
-/// The drag of a velocity in a plane has a value at rest, and its Jacobian divides by the root there.
+/// The drag of a velocity in a plane has a value and slopes at rest; what has no slope, and what power series divide by,
+/// is told.
 #[test]
 fn roots_are_told_where_derivatives_are_asked_for() {
     let told = |forces: &str, emit: &str| {
@@ -236,12 +237,78 @@ fn roots_are_told_where_derivatives_are_asked_for() {
         lines.map(|(_, condition)| condition.to_owned()).collect::<Vec<_>>()
     };
     let drag = "x: -a*sqrt(der(x)^2 + der(y)^2)*der(x);";
-    for emit in ["jacobian", "taylor", "adjoint_product"] {
-        assert_eq!(told(drag, &format!("emit {{ {emit} }}")), ["x_dot^2 + y_dot^2 > 0"], "{emit}");
+    for emit in ["emit { jacobian }", "emit { adjoint_product }", ""] {
+        assert!(told(drag, emit).is_empty(), "{emit}");
     }
-    assert!(told(drag, "").is_empty());
+    let rest = ["x_dot^2 + y_dot^2 > 0"];
+    for forces in [
+        "x: -a*sqrt(der(x)^2 + der(y)^2);",
+        "x: -a*sqrt(der(x)^2 + der(y)^2)*(der(x) + x);",
+        "x: -a*sqrt(der(x)^2 + der(y)^2)*der(x); y: a*sqrt(der(x)^2 + der(y)^2);",
+    ] {
+        assert_eq!(told(forces, "emit { jacobian }"), rest, "{forces}");
+    }
+    for emit in ["emit { taylor }", "emit { jacobian, taylor }"] {
+        assert_eq!(told(drag, emit), rest, "{emit}");
+    }
+    // it ends where the root does
+    assert_eq!(told("x: sqrt(x)*x;", "emit { jacobian }"), [""; 0]);
+    assert_eq!(told("x: sqrt(x)*y;", "emit { jacobian }"), ["x > 0"]);
+    assert_eq!(told("x: sqrt(x^2 + a*y^2)*y;", "emit { jacobian }"), ["x^2 + a*y^2 > 0"]);
     assert!(told("x: -a*sqrt(der(x)^2 + 1)*der(x);", "emit { jacobian }").is_empty());
     // its value is enough for the derivative to have one
     assert!(told("x: a/sqrt(x^2 + y^2);", "emit { jacobian }").is_empty());
     assert_eq!(told("x: asin(y);", "emit { jacobian }"), ["|y| < 1"]);
+}
+
+/// Where forces with roots have slopes at rest, so have the programs of all Jacobians, whatever form the equations have;
+/// those for which that is not proved are told.
+#[test]
+fn jacobians_go_on_where_forces_do() {
+    let plane = "base { x, y, th } lagrangian { m/2*(der(x)^2 + der(y)^2) + J/2*der(th)^2 }";
+    let air = "x: -c*norm([der(x), der(y)])*der(x); y: -c*norm([der(x), der(y)])*der(y);";
+    let turn = "th: -d*sqrt(der(th)^2)*der(th);";
+    let blade = "constraints { der(y)*cos(th) = der(x)*sin(th) + l*der(th); }";
+    let arm =
+        "base { a, b } let p = l*[cos(a) + cos(a + b), sin(a) + sin(a + b)]; let q = l*[cos(a), sin(a)];
+        lagrangian { m/2*dot(der(p), der(p)) + m/2*dot(der(q), der(q)) + m*l*p[1] }";
+    let tip = "a: -c*norm(der(p))*dot(der(p), diff(p, a)); b: -c*norm(der(p))*dot(der(p), diff(p, b));";
+    let body = "basis { v[3], w[3] } brackets se(3) { v, w } lagrangian { m/2*dot(v, v) + J/2*(w[0]^2 + w[1]^2 + 2*w[2]^2) }";
+    let fluid = "v: -c*norm(v)*v; w: -d*norm(w)*w;";
+    let sleigh = "base { x, y, th } basis { u, v, w } anchor { der(x) = u*cos(th) - v*sin(th); \
+        der(y) = u*sin(th) + v*cos(th); der(th) = w; } lagrangian { m/2*(u^2 + v^2) + J/2*w^2 } constraints { v = l*w; }";
+    let water = "u: -c*sqrt(u^2 + (v + l*w)^2)*u; w: -c*l*sqrt(u^2 + (v + l*w)^2)*(v + l*w);";
+    let machines = [
+        format!("{plane} forces {{ {air} {turn} }}"),
+        format!("{plane} {blade} forces {{ {air} {turn} }}"),
+        format!("{plane} {blade} independent {{ der(x), der(y) }} forces {{ {air} {turn} }}"),
+        format!("{body} forces {{ {fluid} }}"),
+        format!("{sleigh} forces {{ {water} }}"),
+        format!("{plane} auxiliary {{ der(heat) = c*norm([der(x), der(y)])^3 - heat; }} forces {{ {air} }}"),
+    ];
+    let told = |machine: &str, level: &str| {
+        let products =
+            if level == "balanced" { ", sparse_jacobian, jacobian_product, adjoint_product" } else { "" };
+        let text = format!(
+            "#[nonholonomic({machine} assume {{ m > 0; J > 0; l > 0; }} accuracy {{ {level} }} emit {{ jacobian{products} }})] \
+             struct Machine {{ m: f64, J: f64, l: f64, c: f64, d: f64 }}"
+        );
+        let declaration = &declarations(&text)[0];
+        let system = declaration.system().unwrap_or_else(|errors| panic!("{errors:?} {machine}"));
+        assert!(system.derivatives_go_on, "{} {machine}", system.report);
+        let emitted = declaration.expanded().to_string();
+        let told =
+            emitted.split_once("Derivatives that may have no value where a root in the forces vanishes\\n  ");
+        told.map_or(String::new(), |(_, told)| told.split("\\n").next().unwrap_or(told).to_owned())
+    };
+    for level in ["fast", "balanced", "careful"] {
+        for machine in &machines {
+            assert_eq!(told(machine, level), "", "{level}: {machine}");
+        }
+    }
+    // multiplied out, the derivative of the root no longer shows that it vanishes with it
+    assert_eq!(
+        told(&format!("{arm} forces {{ {tip} }}"), "balanced"),
+        "linearized, jacobian, sparse_jacobian, sparse_linearized"
+    );
 }

@@ -33,6 +33,7 @@ use super::level::Accuracy;
 use super::memory::{Attempt, Image, STYLE_COUNT, Simplifier, Style};
 use super::node::Function::{Cos, Cosh, Exp, Sin, Sinh};
 use super::node::Node;
+use super::number::Rational;
 use crate::count::Count;
 use crate::id::ExprId;
 use reader::Reader;
@@ -195,8 +196,14 @@ impl Simplifier {
     /// A node whose operands are simplified.
     fn of_node(&self, graph: &mut Graph, id: ExprId, is_root: bool, work: &mut usize) -> Image {
         let node = graph.node(id).clone();
-        let mut image =
-            Image { id, has_sum: false, has_angle: false, is_whole: is_root, beyond: [false; STYLES.len()] };
+        let mut image = Image {
+            id,
+            of_parts: id,
+            has_sum: false,
+            has_angle: false,
+            is_whole: is_root,
+            beyond: [false; STYLES.len()],
+        };
         for operand in node.operands() {
             let part = self.known[&operand];
             image.has_sum |= part.has_sum;
@@ -226,12 +233,25 @@ impl Simplifier {
             *work = work.saturating_sub(budget - choice.work);
             image.id = choice.best;
         }
+        image.of_parts = rebuilt;
         image.has_sum |= is_sum;
         image.has_angle |= matches!(node, Node::Apply(Sin | Cos | Sinh | Cosh | Exp, _));
         image
     }
 
     fn rebuilt(&self, graph: &mut Graph, id: ExprId, node: &Node) -> ExprId {
+        if let Node::Product { coefficient, factors } = node
+            && factors.iter().any(|(_, exponent)| !exponent.is_integer())
+        {
+            let image = |(base, exponent): &(ExprId, Rational)| {
+                let Image { id, of_parts, .. } = self.known[base];
+                let is_kept = !exponent.is_integer() && graph.is_better_kept(of_parts, id);
+                (if is_kept { of_parts } else { id }, exponent.clone())
+            };
+            let factors: Vec<(ExprId, Rational)> = factors.iter().map(image).collect();
+            let product = graph.product(&factors);
+            return graph.scale(coefficient.clone(), product);
+        }
         if node.operands().all(|operand| self.known[&operand].id == operand) {
             return id;
         }

@@ -1,4 +1,4 @@
-use crate::algebra::{Function, Graph, Rational};
+use crate::algebra::{Facts, Function, Graph, Node, Rational};
 use crate::id::ExprId;
 
 fn symbols<const N: usize>(g: &mut Graph, names: [&str; N]) -> [ExprId; N] {
@@ -213,4 +213,56 @@ fn a_deep_expression_is_survived() {
         e = g.linear_combination(&[(Rational::ONE, sin), (Rational::ONE, square), (Rational::ONE, x)]);
     }
     g.simplify(e);
+}
+
+/// What shows that it is not negative goes on to show it under a root: multiplied out, rounding errors would make it
+/// negative where it vanishes.
+#[test]
+fn radicands_stay_sums_of_squares() {
+    let mut g = Graph::new();
+    let [a, b, u, v, l] = ["a", "b", "u", "v", "l"].map(|name| {
+        let symbol = g.new_symbol(name);
+        g.symbol(symbol)
+    });
+    let ab = g.formula(a + b);
+    let (sa, ca, sab, cab) = (g.sin(a), g.cos(a), g.sin(ab), g.cos(ab));
+    let along = g.formula(u * ca + v * sa);
+    let across = g.formula(v * ca - u * sa);
+    let tip = [g.formula(-l * (sa * u + sab * (u + v))), g.formula(l * (ca * u + cab * (u + v)))];
+    let slip = g.formula(across * across / (l * l));
+    let of_tip = g.formula(tip[0] * tip[0] + tip[1] * tip[1]);
+    let thin = g.formula((u - v) * (u + v) * (u - v) * l);
+    for radicand in [slip, of_tip, thin] {
+        for exponent in [Rational::new(1, 2), Rational::new(-1, 2), Rational::new(3, 2)] {
+            let root = g.pow(radicand, exponent);
+            let whole = g.formula(root * across * l - (u + v) * l);
+            for form in [g.simplify(whole), g.normal_form(whole).expect("it is short")] {
+                let roots: Vec<ExprId> = g.reachable(&[form]);
+                let bases = roots.iter().filter_map(|id| match g.node(*id) {
+                    Node::Product { factors, .. } => {
+                        factors.iter().find(|(_, exponent)| !exponent.is_integer())
+                    }
+                    _ => None,
+                });
+                for (base, _) in bases {
+                    let is_product = radicand == thin && matches!(g.node(*base), Node::Product { .. });
+                    let is_shown = g.range(*base, &Facts::default()).is_not_negative();
+                    assert!(is_product || is_shown, "{} in {}", g.text(*base), g.text(form));
+                }
+            }
+        }
+    }
+    // the length of a turned vector is that of the vector
+    let turned = g.formula(along * along + across * across);
+    let root = g.sqrt(turned);
+    assert_eq!(simplified(&mut g, root), "sqrt(v^2 + u^2)");
+    // equal radicands are one
+    let other = g
+        .formula((l * l * u * u * ca * ca + l * l * v * v * sa * sa + 2 * l * l * u * v * sa * ca) / (l * l));
+    let kept = g.formula(along * along);
+    let [one, other] = [kept, other].map(|radicand| {
+        let root = g.sqrt(radicand);
+        g.normal_form(root).expect("it is short")
+    });
+    assert_eq!(one, other);
 }

@@ -105,8 +105,8 @@ impl<'g> Reader<'g> {
             Node::Product { coefficient, factors } => {
                 let mut product = Polynomial::constant(coefficient);
                 for (base, exponent) in factors.iter() {
-                    let (base, exponent) = (self.known.get(base)?.clone(), Exponent::of(exponent)?);
-                    let power = self.power(&base, exponent)?;
+                    let (meaning, exponent) = (self.known.get(base)?.clone(), Exponent::of(exponent)?);
+                    let power = self.power_of((*base, &meaning), exponent)?;
                     product = self.multiply(&product, &power)?;
                 }
                 Some(product)

@@ -4,9 +4,13 @@
 use super::monomial::{Exponent, Kind, Monomial};
 use super::polynomial::Polynomial;
 use super::reader::{Reader, plain};
+use crate::algebra::graph::Graph;
 use crate::algebra::node::Node;
 use crate::algebra::number::Rational;
+use crate::algebra::range::Facts;
+use crate::id::ExprId;
 use std::borrow::Cow;
+use std::rc::Rc;
 
 /// Denominators that a new denominator is divided by, to find common factors.
 const FACTORS_TRIED: usize = 8;
@@ -40,6 +44,34 @@ impl Reader<'_> {
             }
             _ => self.power_of_sum(base, exponent).map(Cow::Owned),
         }
+    }
+
+    /// A power of an expression and what it has been read as. A radicand stays as it stands if it is no sum of squares
+    /// when it is multiplied out: rounding errors would make it negative where (a − b)² vanishes. Equal radicands become
+    /// the one of them that was met first.
+    pub(super) fn power_of<'p>(
+        &mut self,
+        (base, meaning): (ExprId, &'p Polynomial),
+        exponent: Exponent,
+    ) -> Option<Cow<'p, Polynomial>> {
+        if exponent.is_integer() || meaning.len() < 2 {
+            return self.power(meaning, exponent);
+        }
+        let tidy = self.tidy(meaning)?;
+        let content = tidy.content();
+        let primitive = tidy.scaled(&content.recip()?);
+        let multiplied_out = self.plain_sum(&primitive);
+        if !self.graph.kept_radicands.contains_key(&multiplied_out) {
+            if !self.graph.is_better_kept(base, multiplied_out) {
+                return self.power(meaning, exponent);
+            }
+            self.graph.kept_radicands.insert(multiplied_out, (base, content.clone()));
+        }
+        let (kept, its_content) = self.graph.kept_radicands.get(&multiplied_out)?.clone();
+        let outside = self.power_of_number(&(content * its_content.recip()?), exponent)?;
+        self.composites.insert(kept, Rc::new(primitive.scaled(&its_content)));
+        let inside = Polynomial::term(Monomial::of(kept, Kind::Sum, exponent), Rational::ONE);
+        self.multiply(&outside, &inside).map(Cow::Owned)
     }
 
     fn power_of_monomial(
@@ -146,6 +178,25 @@ impl Reader<'_> {
             Polynomial::term(Monomial::of(atom, Kind::Sum, exponent), Rational::ONE)
         };
         self.multiply(&product, &last)
+    }
+}
+
+impl Graph {
+    /// Whether a radicand shows that it is not negative, or is a product of sums, and what it is when it is multiplied out
+    /// does not show it.
+    pub(super) fn is_better_kept(&self, radicand: ExprId, multiplied_out: ExprId) -> bool {
+        let shows = |e: ExprId| self.range(e, &Facts::default()).is_not_negative();
+        if radicand == multiplied_out || shows(multiplied_out) {
+            return false;
+        }
+        let is_product = |id: ExprId| match self.node(id) {
+            Node::Product { factors, .. } => {
+                let sums = factors.iter().filter(|(base, _)| matches!(self.node(*base), Node::Sum { .. }));
+                sums.map(|(_, exponent)| if *exponent == Rational::ONE { 1 } else { 2 }).sum::<u32>() > 1
+            }
+            _ => false,
+        };
+        shows(radicand) || self.reachable(&[radicand]).into_iter().any(is_product)
     }
 }
 

@@ -97,6 +97,7 @@ impl Parts {
             report,
             equations,
             latex: None,
+            derivatives_go_on: false,
             model,
         }
     }
