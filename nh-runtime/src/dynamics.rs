@@ -424,6 +424,9 @@ pub trait Constrained: Dynamics {
     /// Moves the state to where it belongs: embedded coordinates by the shortest way, and then the
     /// velocities along the kinetic energy's orthogonal complement of the constraint distribution.
     ///
+    /// That is meant for states that are nearly right. From one that is as far away as the manifold is curved, which has several
+    /// ways back, it leads to some point of it, or none, and that need not be the nearest one: the distance tells.
+    ///
     /// # Errors
     /// If the manifold is not reached, in lanes by any of them; the state is then as it was, in all of them.
     fn project(&self, t: ScalarOf<Self>, state: &mut Self::State) -> Result<(), ProjectionError>;

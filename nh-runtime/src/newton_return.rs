@@ -160,10 +160,18 @@ pub(crate) fn is_rounding<T: Scalar, const N: usize, const M: usize>(
         let off = (*beyond - (T::ONE - multiple) * *before).abs() * T::from_f64(8.0);
         let follows = (size * multiple).select_gt(off, T::ONE, T::ZERO);
         let of_row = |part: T| after(part).get(row).copied().unwrap_or(T::ZERO);
-        let jumps = [-SURROUNDINGS, 1.0].into_iter().fold(T::ONE, |jumps, near| {
-            jumps * jumps_between(of_row, (T::from_f64(near), T::from_f64(near + SURROUNDINGS)), size)
-        });
-        open = open.max(is_open * (T::ONE - follows * jumps));
+        let mut is_noise = follows;
+        for near in [-SURROUNDINGS, 1.0] {
+            // a search takes many evaluations, and one that nothing rests on any more is left out
+            if !T::ZERO.all_ge(is_noise) {
+                is_noise *=
+                    jumps_between(of_row, (T::from_f64(near), T::from_f64(near + SURROUNDINGS)), size);
+            }
+        }
+        open = open.max(is_open * (T::ONE - is_noise));
+        if !T::ZERO.all_ge(open) {
+            return false;
+        }
     }
     T::ZERO.all_ge(open)
 }
@@ -390,5 +398,18 @@ mod tests {
     fn the_worst_constraint_is_named() {
         assert_eq!(worst([("a", 0.1), ("b", -0.2)]), StateFault { identity: "b", residual: -0.2 });
         assert!(worst([("a", 0.1), ("b", f64::NAN)]).residual.is_nan());
+    }
+
+    /// What is far from rounding is seen to be so before jumps are searched for, which takes hundreds of evaluations.
+    #[test]
+    fn what_is_not_rounding_is_seen_at_once() {
+        let evaluations = Cell::new(0);
+        let curve = |[x, y]: &[f64; 2]| {
+            evaluations.set(evaluations.get() + 1);
+            [x * x + y * y - 1.0, x - y.sin()]
+        };
+        let (before, here, moved) = ([0.9, 0.5], [0.8, 0.7], [-0.1, 0.2]);
+        assert!(!is_rounding(&here, &moved, (&curve(&before), &curve(&here)), curve));
+        assert!(evaluations.get() < 25, "{}", evaluations.get());
     }
 }

@@ -151,6 +151,31 @@ fn a_failed_projection_keeps_the_last_good_state() {
     );
 }
 
+/// However far away, and where the way back is hardly one or none: nothing is moved without a word.
+#[test]
+fn a_start_far_off_is_refused_where_it_is() {
+    fn check<M: Method<Circle> + Copy>(method: M) {
+        for decade in (-300..=150).filter(|decade| *decade != 0) {
+            let distance = 10.0_f64.powi(decade);
+            for start in [Plane { q: distance, p: 0.0 }, Plane { q: 0.6 * distance, p: -0.8 * distance }] {
+                for least in [0.0, 0.5] {
+                    let mut sim = Integrator::new(Circle { least }, Projected::new(method, 1), 0.0, start);
+                    let refused = sim.step();
+                    let is_told = matches!(
+                        refused,
+                        Err(IntegrationError::InconsistentStart { .. } | IntegrationError::Projection { .. })
+                    );
+                    assert!(is_told && *sim.state() == start, "1e{decade}: {refused:?}");
+                }
+            }
+        }
+    }
+    check(Rk4::new(0.1));
+    check(ImplicitMidpoint::new(0.1));
+    check(Dopri5::new());
+    check(Radau5::new());
+}
+
 #[test]
 fn a_cadence_of_zero_is_refused() {
     let error = circling(Projected::new(Rk4::new(0.1), 0)).step().unwrap_err();

@@ -6,6 +6,7 @@
 mod closing;
 mod corrections;
 mod domains;
+mod ends;
 mod events;
 mod extremes;
 mod filters;

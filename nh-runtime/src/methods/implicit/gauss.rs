@@ -20,6 +20,10 @@ use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, Stat
 /// iterations start from the stages of the last steps, continued, and go on until a hundredth of a rounding unit
 /// is missing, or the corrections stagnate in round-off. The Jacobian comes from difference quotients, or
 /// [from the system](Self::with_jacobian); it is kept as long as the iteration converges well.
+///
+/// Where the derivative has an infinite slope, as that of a tank out of which water flows, x' = 1 − √x, has while it is empty,
+/// the iteration may not solve them, and [`IntegrationError::NoConvergence`] says so. [`Radau5`](crate::Radau5),
+/// [`Rodas5P`](crate::Rodas5P) and [`ImplicitMidpoint`](crate::ImplicitMidpoint) get over that one, and explicit methods do.
 pub type GaussLegendre4<T, J = FiniteDifferences> = Fixed<Gauss<T, J, 2>, T>;
 
 /// The method of Gauss and Legendre with three stages and fixed steps, of order 6

@@ -32,6 +32,17 @@ pub trait Linearization<S: Dynamics>: Copy {
         let _ = permitted;
         self.state_jacobian(start, start.time, &start.state.to_array(), slope, h, statistics)
     }
+
+    /// Whether a Jacobian that was formed for a step of length `formed` serves one of length `h`, too, as far as its digits
+    /// go.
+    fn serves(&self, _formed: ScalarOf<S>, _h: ScalarOf<S>) -> bool {
+        true
+    }
+
+    /// The evaluations of the derivative that a Jacobian takes.
+    fn evaluations(&self) -> usize {
+        0
+    }
 }
 
 /// The Jacobian by difference quotients: one evaluation of the derivative for each component, and a second where
@@ -43,7 +54,12 @@ pub trait Linearization<S: Dynamics>: Copy {
 /// depend on a unit that all components share; where these have different ones, as they do where a component is nearly zero,
 /// they differ within the digits that quotients have.
 ///
-/// Such quotients have half the digits. Where the error of a step rests on the Jacobian, and a column without the
+/// An iteration that the Jacobian only speeds up forgives an inaccurate one, but rounding: it ends before what the equations
+/// conserve is conserved, unless that of all columns is. So a component that is not small, and moves, has an increment of at
+/// least ∛ε of the lesser of its value and its change there. And as increments are made for steps of one length, that of a
+/// component that is zero among them, quotients do not serve steps that are a thousand times as long: they are formed anew.
+///
+/// Quotients over √ε have half the digits. Where the error of a step rests on the Jacobian, and a column without the
 /// other half would move some component by more than a hundredth of its permitted error, a central difference over
 /// ∛ε of the component, with two thirds of the digits, takes its place for two evaluations more.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,6 +72,8 @@ pub struct Analytic;
 
 /// The share of the largest component that a small one may be taken for.
 const SMALL: f64 = 1e-3;
+/// How many times as long as the step that quotients are formed for others may be.
+const LONGER: f64 = 1e3;
 /// The rounding errors of a derivative below which its change says nothing.
 const ROUND_OFF: f64 = 16.0;
 /// The share of the permitted error that the rounding of a Jacobian may come to.
@@ -110,6 +128,14 @@ where
         let point = &start.state.to_array();
         quotients(&Place { start, time: start.time, point, slope }, h, Some(permitted), statistics)
     }
+
+    fn serves(&self, formed: ScalarOf<S>, h: ScalarOf<S>) -> bool {
+        h.abs() <= ScalarOf::<S>::from_f64(LONGER) * formed.abs()
+    }
+
+    fn evaluations(&self) -> usize {
+        DimOf::<S>::N
+    }
 }
 
 /// The matrix of the quotients for a step of length h, to the permitted error if there is one.
@@ -129,7 +155,11 @@ where
     let least = largest(sizes.as_ref()) * w(SMALL);
     let mut matrix: MatOf<S> = DimOf::<S>::mat(ScalarOf::<S>::ZERO);
     for (j, &size) in sizes.as_ref().iter().enumerate() {
-        let mut column = place.quotient(j, root * size, statistics);
+        let mut delta = root * size;
+        if permitted.is_none() {
+            delta = delta.max(cube_root * place.lesser(j, h));
+        }
+        let mut column = place.quotient(j, delta, statistics);
         if size < least && column.is_none_or(|(_, is_seen)| !is_seen) {
             column = place.quotient(j, root * least, statistics).or(column);
         }
@@ -179,6 +209,13 @@ impl<S: Dynamics> Place<'_, '_, S>
 where
     ScalarOf<S>: Real,
 {
+    /// The lesser of the value of component `j` and its change in a step of length h.
+    fn lesser(&self, j: usize, h: ScalarOf<S>) -> ScalarOf<S> {
+        let of = |list: &VecOf<S>| list.as_ref().get(j).map_or(ScalarOf::<S>::ZERO, |number| number.abs());
+        let (value, change) = (of(self.point), h.abs() * of(self.slope));
+        if change < value { change } else { value }
+    }
+
     /// The difference quotient of f by component `j`, forwards or else backwards, and whether it shows more than
     /// rounding. None where the component does not move.
     fn quotient(

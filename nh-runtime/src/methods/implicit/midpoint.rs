@@ -23,6 +23,9 @@ use crate::{
 /// comes from difference quotients, or [from the system](Self::with_jacobian).
 pub type ImplicitMidpoint<T, J = FiniteDifferences> = Fixed<Midpoint<T, J>, T>;
 
+/// The share of the state that an increment need not be smaller than.
+const SMALL: f64 = 1.0 / 64.0;
+
 /// The computation of a step of [`ImplicitMidpoint`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Midpoint<T, J> {
@@ -249,11 +252,14 @@ fn is_elsewhere<T: Real>(increment: T, usual: T) -> bool {
     increment * T::EPSILON.sqrt() > usual
 }
 
-/// Whether a share of a correction is below half a rounding unit in every component.
+/// Whether a share of a correction is below half a rounding unit of the increment, or of a small share of the state, in every
+/// component. What is below that of the whole state, which increments are small beside, has the same sign from step to step.
 fn vanishes<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V, share: T) -> bool {
-    let half_unit = T::EPSILON * T::from_f64(0.5);
+    let (half_unit, small) = (T::EPSILON * T::from_f64(0.5), T::from_f64(SMALL));
     let terms = correction.as_ref().iter().zip(x.as_ref().iter().zip(increment.as_ref()));
-    terms.fold(true, |all, (c, (x, d))| all & (share * c.abs() <= half_unit * (x.abs() + d.abs())))
+    terms.fold(true, |all, (c, (x, d))| {
+        all & (share * c.abs() <= half_unit * Scalar::max(d.abs(), small * x.abs()))
+    })
 }
 
 /// The matrix of an iteration, and what rounding reaches by it.

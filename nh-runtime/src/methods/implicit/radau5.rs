@@ -55,8 +55,11 @@ const ENOUGH: f64 = 0.03;
 const RESOLVED: f64 = 10.0;
 /// The iterations after which it is given up.
 const MOST_ITERATIONS: i32 = 7;
-/// The rate of convergence up to which the Jacobian serves the next step, too.
-const FAST: f64 = 2e-3;
+/// The rate of convergence up to which the Jacobian serves the next step, too, if it takes no more evaluations than an
+/// iteration; and in any case.
+const FAST: [f64; 2] = [2e-3, 0.1];
+/// The evaluations of an iteration.
+const STAGES: f64 = 3.0;
 /// The rate of convergence that is as good as none.
 const HOPELESS: f64 = 0.99;
 /// The length of a step is kept where it could grow up to this factor.
@@ -72,7 +75,9 @@ pub struct Work<S: Dynamics> {
     /// The derivative at the start.
     first: VecOf<S>,
     jacobian: Option<MatOf<S>>,
-    /// Whether that was formed at the present start.
+    /// For a step of which length.
+    formed: ScalarOf<S>,
+    /// Whether that was at the present start.
     current: bool,
     /// For steps of which length.
     matrices: Option<(ScalarOf<S>, Matrices<S>)>,
@@ -145,7 +150,7 @@ impl<J> Radau<J> {
         let enough = enough.max(w(RESOLVED) * ScalarOf::<S>::EPSILON * resolution);
         let failed = Some(w(0.5));
         work.ahead = work.ahead.max(ScalarOf::<S>::EPSILON).powf(w(0.8));
-        work.rate = w(FAST);
+        work.rate = w(FAST[0]);
         let (mut last, mut last_ratio) = (one, one);
         for iteration in 1..=MOST_ITERATIONS {
             let change = RADAU.iterate(start, &x, h, matrices, &mut work.trial);
@@ -183,6 +188,18 @@ impl<J> Radau<J> {
         failed
     }
 
+    /// The rate of convergence up to which the Jacobian serves the next step, too: one that takes many evaluations is worth
+    /// more iterations.
+    fn fast<S: Dynamics>(&self) -> f64
+    where
+        J: Linearization<S>,
+    {
+        let [least, most] = FAST;
+        let iterations =
+            f64::from(u32::try_from(self.linearization.evaluations()).unwrap_or(u32::MAX)) / STAGES;
+        (least * iterations * iterations).clamp(least, most)
+    }
+
     /// The matrices for a step of length h.
     fn matrices<S: Dynamics>(
         &self,
@@ -200,14 +217,16 @@ impl<J> Radau<J> {
         {
             return *matrices;
         }
-        let jacobian = if let Some(jacobian) = &work.jacobian {
-            *jacobian
+        let kept = work.jacobian.filter(|_| work.current || self.linearization.serves(work.formed, h));
+        let jacobian = if let Some(jacobian) = kept {
+            jacobian
         } else {
             statistics.jacobians += 1;
             let x = start.state.to_array();
             let jacobian =
                 self.linearization.state_jacobian(start, start.time, &x, &work.first, h, statistics);
             work.current = true;
+            work.formed = h;
             *work.jacobian.insert(jacobian)
         };
         statistics.factorizations += 2;
@@ -230,6 +249,7 @@ where
         Work {
             first: zero,
             jacobian: None,
+            formed: ScalarOf::<S>::ZERO,
             current: false,
             matrices: None,
             trial: [zero; 3],
@@ -322,7 +342,7 @@ where
     fn accept<const KEEP: bool>(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S>) {
         work.accepted = Some((start.time, h, work.trial));
         work.smooth = true;
-        if work.rate > ScalarOf::<S>::from_f64(FAST) {
+        if work.rate > ScalarOf::<S>::from_f64(self.fast::<S>()) {
             work.jacobian = None;
             work.matrices = None;
         }
