@@ -81,8 +81,8 @@ pub(crate) struct Resolved {
 pub(crate) struct Unresolved {
     /// What is wrong.
     pub(crate) errors: Vec<Diagnostic>,
-    /// What stubs are made of.
-    pub(crate) outline: Box<Outline>,
+    /// What is known, of which parts in error are left out: what stubs are made of.
+    pub(crate) model: Box<Model>,
 }
 
 /// Resolves a declaration. The layout starts from that of the struct; what is known of it is
@@ -93,9 +93,11 @@ pub(crate) fn resolve(declaration: &SystemDecl, layout: &mut Layout) -> Result<R
     resolver.declare(declaration, layout);
     resolver.surroundings(declaration, layout);
     let model = resolver.model(declaration, layout);
-    let outline = Box::new(Outline::of(&model));
     let Resolver { origins, reports, .. } = resolver;
-    reports.finish(Resolved { model, origins }).map_err(|errors| Unresolved { errors, outline })
+    match reports.finish(()) {
+        Ok(()) => Ok(Resolved { model, origins }),
+        Err(errors) => Err(Unresolved { errors, model: Box::new(model) }),
+    }
 }
 
 impl Resolver {
