@@ -148,10 +148,12 @@ impl Resolver {
         sections.derivative.iter().for_each(|section| self.derivatives(&section.body));
         layout.methods = std::mem::take(&mut self.methods);
         let claims = sections.conserved.as_ref().map(|s| self.claims(&s.body)).unwrap_or_default();
-        let symmetries = sections.symmetries.as_ref().map(|s| self.symmetries(&s.body)).unwrap_or_default();
+        let (symmetries, broken) =
+            sections.symmetries.as_ref().map(|s| self.symmetries(&s.body)).unwrap_or_default();
         let volume = sections.volume.as_ref().and_then(|claim| self.volume(claim).ok());
         let hamilton_jacobi = sections.hamilton_jacobi.as_ref().map(|s| self.hamilton_jacobi(s));
-        let routh = sections.routh.as_ref().map(|s| self.routh(&s.body, &symmetries)).unwrap_or_default();
+        let routh =
+            sections.routh.as_ref().map(|s| self.routh(&s.body, (&symmetries, &broken))).unwrap_or_default();
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
         let requests = self.asked(declaration);
         self.unused();
