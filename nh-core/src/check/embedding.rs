@@ -42,7 +42,8 @@ pub fn embedding(model: &mut Model, motion: &Motion) -> Result<Manifold, Vec<Vio
         let others = left.count();
         if others > 0 {
             let identities = if others == 1 { "identity" } else { "identities" };
-            violation.evidence.push_str(&format!("; so it is with {others} more {identities}"));
+            let also = format!("; so it is with {others} more {identities}");
+            violation.evidence.push_str(&also);
         }
         violations.push(violation);
     }
