@@ -6,8 +6,9 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use nonholonomic_core::limits::{Subject, about, within_limits};
-use nonholonomic_core::violation::Violation;
+use nonholonomic_core::violation::{Law, Violation};
 
+use crate::derived_outline::outlined;
 use crate::emit::{Layout, collision, emit, stubs};
 use crate::report::{Diagnostic, compile_errors};
 use crate::resolve::{Outline, Resolved, resolve};
@@ -21,11 +22,11 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
         Err(Malformed { errors, rest: Some(rest) }) => {
             // what is wrong besides may follow from these errors: nothing is said of it
             let mut layout = Layout::of_struct(&rest.structure, attribute);
-            let outline = match resolve(&rest, &mut layout) {
-                Ok(resolved) => Outline::of(&resolved.model),
-                Err(unresolved) => *unresolved.outline,
+            let model = match resolve(&rest, &mut layout) {
+                Ok(resolved) => resolved.model,
+                Err(unresolved) => *unresolved.model,
             };
-            return with_errors(&errors, &stubs(&layout, &outline));
+            return with_errors(&errors, &stubs(&layout, &outlined(model)));
         }
         Err(Malformed { errors, rest: None }) => {
             return with_errors(&errors, &syntax::without_own_attributes(item));
@@ -34,25 +35,30 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
     let mut layout = Layout::of_struct(&declaration.structure, attribute);
     let resolved = match resolve(&declaration, &mut layout) {
         Ok(resolved) => resolved,
-        Err(unresolved) => return with_errors(&unresolved.errors, &stubs(&layout, &unresolved.outline)),
+        Err(unresolved) => {
+            return with_errors(&unresolved.errors, &stubs(&layout, &outlined(*unresolved.model)));
+        }
     };
-    let outline = Outline::of(&resolved.model);
+    let declared = resolved.model.clone();
     let Resolved { model, origins } = resolved;
     let derived: Result<Result<TokenStream, Vec<Violation>>, _> = within_limits(|| {
         let system = nonholonomic_core::compile::compile(model)?;
         about(Subject::Code);
         emit(&system, &layout)
     });
-    let errors: Vec<_> = match derived {
+    let (errors, outline): (Vec<_>, Outline) = match derived {
         Ok(Ok(items)) => match collision(&items) {
             None => return items,
             // the names would meet again in stubs: the struct stands alone
             Some(error) => return with_errors(&[error], &syntax::without_own_attributes(item)),
         },
         Ok(Err(violations)) => {
-            told_once(violations.into_iter().map(|violation| origins.diagnostic(violation)))
+            // where a derivation is too large, so is another one
+            let is_large = violations.iter().any(|violation| violation.law == Law::Size);
+            let outline = if is_large { Outline::of(&declared) } else { outlined(declared) };
+            (told_once(violations.into_iter().map(|violation| origins.diagnostic(violation))), outline)
         }
-        Err(too_large) => vec![declaration.too_large(too_large)],
+        Err(too_large) => (vec![declaration.too_large(too_large)], Outline::of(&declared)),
     };
     with_errors(&errors, &stubs(&layout, &outline))
 }

@@ -1,6 +1,7 @@
 //! The attribute macro `#[nonholonomic(…)]`: the declaration of a nonholonomic mechanical system
 //! becomes verified code. Tokens come in and go out here; the mathematics is in `nh-core`.
 
+mod derived_outline;
 mod emit;
 mod expand;
 mod morphism;
@@ -76,7 +77,7 @@ mod syntax;
 /// | `accuracy { careful }` | where emitted code stands between speed and accuracy: `fast`, `balanced` or `careful`, see below | `balanced` |
 /// | `emit { jacobian, momenta }` | what to generate beyond the default: see below | |
 /// | `linearization { keep: v, omega; }` | the variables of the state in which `linearize` gives a linear model on the constraint manifold, and which are steady where `trim` finds a steady motion | `linearization { }`: the independent ones |
-/// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed | everything |
+/// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed, nor is an output that depends on it | everything |
 /// | `derivative { motor: [self.motor_speed]; }` | the partial derivatives of a method used in a force, for `emit { jacobian }` | |
 /// | `names { state = RobotState; }` | names of generated types, by their roles: `state`, `velocity`, `input`, `outputs`, `multipliers`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `impulses`, and the lists of names `coordinate` and `variable` | `…State` and so on |
 /// | `crate { ::runtime }` | the path of the runtime where the dependency is renamed | `::nonholonomic` |

@@ -92,6 +92,76 @@ fn velocities_alone() {
     assert!(Velocities::REPORT.contains("left out: theta, x, y"), "{}", Velocities::REPORT);
 }
 
+/// A body that slides in space, with a spring in height.
+macro_rules! slider {
+    ($name:ident, $($section:ident { $($content:tt)* })*) => {
+        #[nonholonomic(
+            base { x, y, z }
+            lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) - k / 2 * y^2 }
+            inputs { lift }
+            forces { y: lift - c * der(y); }
+            outputs { place = [x, y, z]; sideways = x; pace = der(x) * lift; height = y * der(y); grid = [[x, z], [z, x]]; }
+            units { x, y, z = m; t = s; m = kg; lift = N; }
+            emit { output_jacobian, bracket, c, latex }
+            linearization { keep: y, der(y); }
+            $($section { $($content)* })*
+        )]
+        #[derive(Clone, Copy, Debug)]
+        struct $name { m: f64, k: f64, c: f64 }
+    };
+}
+
+slider!(Everywhere,);
+slider!(Upwards, track { der(x), y });
+
+#[test]
+fn outputs_that_need_what_is_left_out_go() {
+    let (whole, part) = (Everywhere { m: 1.3, k: 0.7, c: 0.2 }, Upwards { m: 1.3, k: 0.7, c: 0.2 });
+    let (y, x_dot, y_dot) = (0.4, -0.3, 0.9);
+    let large = EverywhereState { x: 1.1, y, z: -2.0, x_dot, y_dot, z_dot: 0.2 };
+    let small = UpwardsState { y, x_dot, y_dot };
+    let (large_input, small_input) = (EverywhereInput { lift: 0.5 }, UpwardsInput { lift: 0.5 });
+    let all = whole.outputs(0.0, &large, &large_input);
+    // nothing else is a field
+    let UpwardsOutputs { place_1, pace, height } = part.outputs(0.0, &small, &small_input);
+    assert_eq!([place_1, pace, height], [all.place[1], all.pace, all.height]);
+    assert_eq!(
+        <[f64; 3]>::from(Observed::outputs(&part, 0.0, &small, &small_input)),
+        [place_1, pace, height]
+    );
+    let (outputs, variables) = ([1, 4, 5], [1, 3, 4]);
+    let (c_whole, d_whole) = whole.output_jacobian(0.0, &large, &large_input);
+    let (c, d) = part.output_jacobian(0.0, &small, &small_input);
+    let of_all = whole.bracket(0.0, &large, &large_input);
+    let brackets = part.bracket(0.0, &small, &small_input);
+    for (row, output) in outputs.into_iter().enumerate() {
+        assert_eq!(d[row], d_whole[output]);
+        for (column, variable) in variables.into_iter().enumerate() {
+            assert_eq!(c[(row, column)], c_whole[(output, variable)]);
+        }
+        for (column, other) in outputs.into_iter().enumerate() {
+            assert_eq!(brackets[(row, column)], of_all[(output, other)]);
+        }
+    }
+    let rates = part.bracket_with_energy(0.0, &small, &small_input);
+    let drifts = part.drift_of_outputs(0.0, &small, &small_input);
+    assert_eq!(rates.height, whole.bracket_with_energy(0.0, &large, &large_input).height);
+    assert_eq!(drifts.height, whole.drift_of_outputs(0.0, &large, &large_input).height);
+    let model = part.linearize(0.0, &small, &small_input).unwrap();
+    let of_whole = whole.linearize(0.0, &large, &large_input).unwrap();
+    assert_eq!(model.c.row(2), of_whole.c.row(5));
+    for declared in [
+        "upwards_outputs(const Upwards *p, double t, const UpwardsState *x, const UpwardsInput *u, double result[3])",
+        "u, double result[12])",
+    ] {
+        assert!(Upwards::C99.contains(declared), "{}", Upwards::C99);
+    }
+    for told in ["the output `place[0]`, which depends on x", "the output `grid`, which depends on x, z"] {
+        assert!(Upwards::REPORT.contains(told), "{}", Upwards::REPORT);
+        assert!(Upwards::LATEX.contains("left out"), "{}", Upwards::LATEX);
+    }
+}
+
 /// Equal up to the order of operations.
 fn same(a: f64, b: f64) {
     assert!((a - b).abs() <= 1e-14 * (1.0 + b.abs()), "{a} is not {b}");

@@ -36,8 +36,16 @@ pub fn embedding(model: &mut Model, motion: &Motion) -> Result<Manifold, Vec<Vio
         .map_err(|index| vec![not_parametrised(model, identities[index])])?;
     let demands = on_the_base(model);
     base.keep_parts_with_points(&mut model.graph, &demands);
-    for identity in &identities {
-        violations.extend(left_by_anchor(model, motion, &base, *identity));
+    let mut left = identities.iter().filter_map(|identity| left_by_anchor(model, motion, &base, *identity));
+    // what moves off one identity is seen in the others that its coordinates stand in
+    if let Some(mut violation) = left.next() {
+        let others = left.count();
+        if others > 0 {
+            let identities = if others == 1 { "identity" } else { "identities" };
+            let also = format!("; so it is with {others} more {identities}");
+            violation.evidence.push_str(&also);
+        }
+        violations.push(violation);
     }
     if violations.is_empty() { Ok(base) } else { Err(violations) }
 }

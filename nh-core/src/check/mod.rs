@@ -21,6 +21,7 @@ pub(crate) mod evidence;
 mod formulation;
 mod frame;
 mod hamilton_jacobi;
+mod homomorphism;
 mod impact_independence;
 mod impact_rows;
 mod kind;

@@ -1,19 +1,20 @@
 //! The structure equations of a Lie algebroid, mathematics (2) and (3).
 
 use super::evidence::{listed, not_zero_on, shown};
+use super::homomorphism::{broken_pairs, homomorphism};
 use crate::algebra::{Graph, Rational, Verdict};
-use crate::geometry::{Algebroid, Manifold, hamel};
-use crate::id::{CoordId, ExprId, Id, Origin, SectionId};
+use crate::geometry::{Algebroid, Manifold};
+use crate::id::{ExprId, Id, Origin, SectionId};
 use crate::limits;
 use crate::model::{Kinematics, Model};
 use crate::violation::{Law, Violation};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// At most so many broken instances of one law are reported as errors.
-const REPORTED: usize = 3;
+pub(super) const REPORTED: usize = 3;
 
 /// So many times as many are compared with each other.
-const COMPARED: usize = 8;
+pub(super) const COMPARED: usize = 8;
 
 /// How an almost Lie algebroid breaks the structure equations, if it does.
 #[derive(Clone, Debug, Default)]
@@ -55,7 +56,7 @@ pub fn structure_equations(
                 .map(|Violation { what, evidence, .. }| format!("{what}, {evidence}"))
         };
         return Ok(BrokenLaws {
-            homomorphism: told(homomorphism(model, algebroid, base, 1)),
+            homomorphism: told(broken_pairs(model, algebroid, base, 1)),
             jacobi: told(
                 broken_triples(model, algebroid, base, 1)
                     .1
@@ -65,7 +66,7 @@ pub fn structure_equations(
             ),
         });
     }
-    let mut violations = homomorphism(model, algebroid, base, REPORTED);
+    let mut violations = homomorphism(model, algebroid, base);
     if violations.is_empty() {
         violations = jacobi(model, algebroid, base);
     }
@@ -73,7 +74,7 @@ pub fn structure_equations(
 }
 
 /// Where the bracket of a pair stands, or else the later of its sections.
-fn origin_of_pair(model: &Model, alpha: SectionId, beta: SectionId) -> Origin {
+pub(super) fn origin_of_pair(model: &Model, alpha: SectionId, beta: SectionId) -> Origin {
     let matches = |left, right| (left, right) == (alpha, beta) || (left, right) == (beta, alpha);
     model
         .brackets
@@ -82,82 +83,7 @@ fn origin_of_pair(model: &Model, alpha: SectionId, beta: SectionId) -> Origin {
         .map_or(model.sections[beta].origin, |declaration| declaration.origin)
 }
 
-/// Mathematics (2): `ρ^j_α ∂_jρ^i_β − ρ^j_β ∂_jρ^i_α = ρ^i_γ C^γ_{αβ}`.
-fn homomorphism(
-    model: &mut Model,
-    algebroid: &Algebroid,
-    base: &Manifold,
-    reported: usize,
-) -> Vec<Violation> {
-    let mut violations = Vec::new();
-    if algebroid.anchor.coordinates.is_empty() {
-        return violations;
-    }
-    for alpha in algebroid.sections() {
-        for beta in algebroid.sections().filter(|beta| alpha < *beta) {
-            if violations.len() == reported {
-                return violations;
-            }
-            violations.extend(homomorphism_of_pair(model, algebroid, base, alpha, beta));
-        }
-    }
-    violations
-}
-
-fn homomorphism_of_pair(
-    model: &mut Model,
-    algebroid: &Algebroid,
-    base: &Manifold,
-    alpha: SectionId,
-    beta: SectionId,
-) -> Option<Violation> {
-    let graph = &mut model.graph;
-    let commutator = hamel::commutator(graph, &algebroid.anchor, alpha, beta);
-    let bracket = bracket_of(graph, algebroid, alpha, beta);
-    let image = algebroid.anchor.vector_field(graph, &bracket);
-    for (index, (left, right)) in commutator.into_iter().zip(image).enumerate() {
-        let defect = graph.formula(left - right);
-        let verdict = base.zero_test(graph, defect);
-        if verdict.is_zero() {
-            continue;
-        }
-        let (left, right, defect) = (graph.simplify(left), graph.simplify(right), graph.simplify(defect));
-        let (a, b) = (&model.sections[alpha].name, &model.sections[beta].name);
-        let x = &model.coordinates[CoordId::from_index(index)].name;
-        let graph = &model.graph;
-        let evidence = format!(
-            "along `{x}`: [rho({a}), rho({b})] is {}, but rho([{a}, {b}]) is {}; the difference {}",
-            shown(graph, left),
-            shown(graph, right),
-            defect_text(graph, defect, &verdict, base),
-        );
-        let derivable = model.brackets.is_empty();
-        let way_out = if derivable {
-            "no bracket of the declared sections exists: their vector fields do not close; \
-             add the missing section to the basis, or declare the `brackets` of an almost Lie algebroid"
-                .to_owned()
-        } else {
-            format!(
-                "correct the bracket [{a}, {b}] or the anchor; where the anchor is injective, leave `brackets` \
-                 out and they are derived; or write `almost;` if an almost Lie algebroid is meant"
-            )
-        };
-        return Some(Violation {
-            law: Law::Homomorphism,
-            origin: origin_of_pair(model, alpha, beta),
-            what: format!("the anchor is not a homomorphism of brackets on the pair [{a}, {b}]"),
-            evidence,
-            way_out,
-        });
-    }
-    None
-}
-
-fn bracket_of(graph: &mut Graph, algebroid: &Algebroid, alpha: SectionId, beta: SectionId) -> Vec<ExprId> {
-    algebroid.sections().map(|gamma| algebroid.structure.get(graph, gamma, alpha, beta)).collect()
-}
-
-fn defect_text(graph: &Graph, defect: ExprId, verdict: &Verdict, base: &Manifold) -> String {
+pub(super) fn defect_text(graph: &Graph, defect: ExprId, verdict: &Verdict, base: &Manifold) -> String {
     match verdict {
         Verdict::Zero => "is 0".into(),
         Verdict::NonZero(witness) => not_zero_on(graph, defect, witness, base),
@@ -207,26 +133,40 @@ fn by_one_bracket(model: &Model, brackets: &Brackets, broken: &[Broken]) -> Opti
         let here = entering(brackets, *triple);
         suspects.retain(|pair| here.contains(pair));
     }
-    // of several a bracket that is not 0 is the likelier one
-    if suspects.len() > 1 {
-        suspects.retain(|[left, right]| !brackets[left.index()][right.index()].is_empty());
-    }
-    let mut suspects = suspects.into_iter();
-    let (Some(pair), None, false) = (suspects.next(), suspects.next(), others.is_empty()) else {
+    if others.is_empty() || suspects.is_empty() {
         return None;
+    }
+    let name = |pair: &[SectionId; 2]| {
+        let [a, b] = pair.map(|section| model.sections[section].name.as_str());
+        format!("[{a}, {b}]")
     };
-    let names = pair.map(|section| model.sections[section].name.as_str());
-    let bracket = format!("[{}]", names.join(", "));
     let sums = if others.len() == 1 { "another sum" } else { "other sums" };
+    // of several a bracket that is not 0 is the likelier one
+    let is_written = |pair: &&[SectionId; 2]| !brackets[pair[0].index()][pair[1].index()].is_empty();
+    let mut likely = suspects.iter().filter(|pair| suspects.len() == 1 || is_written(pair));
+    if let (Some(pair), None) = (likely.next(), likely.next()) {
+        let bracket = name(pair);
+        return Some(Violation {
+            origin: origin_of_pair(model, pair[0], pair[1]),
+            evidence: format!(
+                "{}; {bracket} enters into it, and into {sums} that should be 0",
+                violation.evidence
+            ),
+            way_out: format!(
+                "correct the bracket {bracket}; or write `almost;` if an almost Lie algebroid is meant"
+            ),
+            ..violation.clone()
+        });
+    }
+    let all: Vec<String> = suspects.iter().map(name).collect();
     Some(Violation {
-        origin: origin_of_pair(model, pair[0], pair[1]),
         evidence: format!(
-            "{}; {bracket} enters into it, and into {sums} that should be 0",
-            violation.evidence
+            "{}; {} enter into it, and into {sums} that should be 0",
+            violation.evidence,
+            listed(&all)
         ),
-        way_out: format!(
-            "correct the bracket {bracket}; or write `almost;` if an almost Lie algebroid is meant"
-        ),
+        way_out: "correct one of these brackets; or write `almost;` if an almost Lie algebroid is meant"
+            .into(),
         ..violation.clone()
     })
 }

@@ -19,6 +19,7 @@ mod gyroscopic;
 mod held_equations;
 mod idle_coordinates;
 mod impact_functions;
+mod kept_outputs;
 mod kept_volume;
 mod levels;
 mod linearization;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::kept_outputs::KeptOutputs;
 use super::proved::fence;
 use crate::algebra::Graph;
 use crate::functions::{Function, OUTPUTS, RESIDUAL, Sliced, TABLE};
@@ -40,16 +41,8 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
         let all = procedure.depends_on(&system.model.graph, outputs).into_iter();
         all.filter(|symbol| state(symbol) && !needed.contains(symbol)).collect()
     };
-    let observables = system.functions.get(&OUTPUTS).cloned().unwrap_or_default();
-    let declared: Vec<_> = system.model.outputs.iter().zip(&observables.outputs).collect();
-    for entries in declared.chunk_by(|(output, _), (next, _)| family(&output.name) == family(&next.name)) {
-        let values: Vec<ExprId> = entries.iter().map(|(_, value)| **value).collect();
-        let missing = missing(&observables, &values);
-        if let (false, Some((output, _))) = (missing.is_empty(), entries.first()) {
-            let what = format!("the output `{}`", family(&output.name));
-            refused.push(left_out(&system, &what, &missing, output.origin));
-        }
-    }
+    let kept_outputs = KeptOutputs::of(&system, |symbol| state(symbol) && !needed.contains(symbol));
+    refused.extend(of_outputs(&system, &kept_outputs, (&whole, &needed)));
     // what depends on something that is left out goes, or is refused where it is asked for
     let mut without: Vec<&'static str> = Vec::new();
     for Function { signature, procedure } in system.functions.iter() {
@@ -71,11 +64,53 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
         }
     }
     fence(refused)?;
-    note(&mut system, &needed, &without);
+    note(&mut system, &needed, &without, &kept_outputs);
     let is_there = |function: &Function| !matches!(function.signature.sliced, Sliced::Named(name) if without.contains(&name));
     system.functions.retain(is_there);
+    kept_outputs.restrict(&mut system, &whole, &needed);
     restrict(&mut system, &whole, &needed);
     Ok(system)
+}
+
+/// What is asked for of the outputs, and cannot be computed for those that are kept.
+fn of_outputs(
+    system: &System,
+    kept: &KeptOutputs,
+    (whole, needed): (&[SymbolId], &BTreeSet<SymbolId>),
+) -> Vec<Violation> {
+    let is_in_state = |column: usize| whole.get(column).is_none_or(|symbol| needed.contains(symbol));
+    let mut refused = Vec::new();
+    for (request, origin) in &system.model.requests {
+        let of_request = |function: &&Function| {
+            function.signature.sliced == Sliced::Outputs && function.signature.request() == Some(*request)
+        };
+        let functions: Vec<&Function> = system.functions.iter().filter(of_request).collect();
+        if functions.is_empty() {
+            continue;
+        }
+        if kept.are_none() {
+            let lines = kept.dropped(&system.model.graph, &system.model.outputs);
+            refused.push(Violation {
+                law: Law::Tracking,
+                origin: *origin,
+                what: "what is asked for here is about outputs, and `track` leaves none".into(),
+                evidence: format!("left out: {}", lines.join("; ")),
+                way_out: "track an output, or what it depends on; or do not ask for this".into(),
+            });
+            break;
+        }
+        let mut missing = BTreeSet::new();
+        for function in functions {
+            let part = kept.part(function, whole.len(), is_in_state);
+            let found = part.depends_on(&system.model.graph, &part.outputs).into_iter();
+            missing.extend(found.filter(|symbol| whole.contains(symbol) && !needed.contains(symbol)));
+        }
+        if !missing.is_empty() {
+            let missing: Vec<SymbolId> = missing.into_iter().collect();
+            refused.push(left_out(system, "what is asked for here", &missing, *origin));
+        }
+    }
+    refused
 }
 
 /// Whether something is derived for the whole state only.
@@ -207,16 +242,17 @@ pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSe
 }
 
 /// Says in the report and the documentation what is left out.
-fn note(system: &mut System, needed: &BTreeSet<SymbolId>, without: &[&str]) {
+fn note(system: &mut System, needed: &BTreeSet<SymbolId>, without: &[&str], outputs: &KeptOutputs) {
     let state = system.state();
     let (kept, dropped): (Vec<SymbolId>, Vec<SymbolId>) =
         state.into_iter().partition(|symbol| needed.contains(symbol));
     let mut left_out = names(system, &dropped);
-    left_out.extend(without.iter().map(|function| (*function).to_owned()));
-    if left_out.is_empty() {
+    if left_out.is_empty() && without.is_empty() {
         return;
     }
-    let left_out = left_out.join(", ");
+    left_out.extend(without.iter().map(|function| (*function).to_owned()));
+    let outputs = outputs.dropped(&system.model.graph, &system.model.outputs);
+    let left_out = [vec![left_out.join(", ")], outputs].concat().join("; ");
     let kept = names(system, &kept).join(", ");
     system.report.extend(["\nTracked variables\n  ", &kept, "\n  left out: ", &left_out, "\n"]);
     system.equations.extend([String::new(), format!("left out: {left_out}")]);
@@ -227,11 +263,6 @@ fn note(system: &mut System, needed: &BTreeSet<SymbolId>, without: &[&str]) {
 
 fn names(system: &System, symbols: &[SymbolId]) -> Vec<String> {
     symbols.iter().map(|symbol| system.model.graph.symbols()[*symbol].clone()).collect()
-}
-
-/// The name of a family by that of an entry, `pose[1]`: one line may declare all of them.
-fn family(entry: &str) -> &str {
-    entry.split('[').next().unwrap_or(entry)
 }
 
 /// `what` needs variables that are left out.

@@ -43,6 +43,7 @@ pub fn compile_with(model: Model, registry: &Registry) -> Result<System, Vec<Vio
 fn compiled(model: Model, registry: &Registry) -> Result<System, Vec<Violation>> {
     let (mut proved, chosen) = prove(model)?;
     let quadratures = proved.quadratures.clone();
+    let constrained = linearization::manifold(&mut proved);
     // 7. the equations, proved regular, and the claims about them
     about(Subject::Equations);
     let system = match chosen {
@@ -67,7 +68,7 @@ fn compiled(model: Model, registry: &Registry) -> Result<System, Vec<Violation>>
     about(Subject::Requests);
     let mut system = slice::slice(routh::without(system, &quadratures))?;
     folded_constants::in_numbers(&mut system);
-    linearization::derive(&mut system)?;
+    linearization::derive(&mut system, constrained.as_ref())?;
     vector_products::derive(&mut system)?;
     // 9. Taylor series exist where they are asked for
     fence(analytic::check(&system).err().into_iter().collect())?;

@@ -155,8 +155,8 @@ pub enum Sliced {
     Named(&'static str),
     /// It may not be asked for if any is left out.
     Whole,
-    /// Each of its components is judged where it is declared.
-    Declared,
+    /// It has a component, or a row, for each output: those of outputs that depend on one of them go.
+    Outputs,
     /// It is of variables that no slice leaves out.
     Kept,
 }

@@ -65,7 +65,7 @@ pub static OUTPUTS: Signature = Signature {
     takes_input: true,
     shape: Shape::Record(Record::Outputs),
     when: When::WithOutputs,
-    sliced: Sliced::Declared,
+    sliced: Sliced::Outputs,
 };
 
 /// `multipliers`.
@@ -122,7 +122,7 @@ pub static OUTPUT_JACOBIAN: Signature = Signature {
     takes_input: true,
     shape: Shape::ByStateAndInput(Size::Outputs),
     when: When::Asked(Request::OutputJacobian),
-    sliced: Sliced::Whole,
+    sliced: Sliced::Outputs,
 };
 
 /// `parameter_jacobian`.
@@ -168,7 +168,7 @@ pub static BRACKET: Signature = Signature {
     takes_input: true,
     shape: Shape::Matrix(Size::Outputs, Size::Outputs),
     when: When::Asked(Request::Bracket),
-    sliced: Sliced::Whole,
+    sliced: Sliced::Outputs,
 };
 
 /// `bracket_with_energy`.
@@ -181,7 +181,7 @@ pub static BRACKET_WITH_ENERGY: Signature = Signature {
     takes_input: true,
     shape: Shape::Record(Record::Outputs),
     when: When::Asked(Request::Bracket),
-    sliced: Sliced::Whole,
+    sliced: Sliced::Outputs,
 };
 
 /// `drift_of_outputs`.
@@ -194,7 +194,7 @@ pub static DRIFT_OF_OUTPUTS: Signature = Signature {
     takes_input: true,
     shape: Shape::Record(Record::Outputs),
     when: When::Asked(Request::Bracket),
-    sliced: Sliced::Whole,
+    sliced: Sliced::Outputs,
 };
 
 /// `divergence`.

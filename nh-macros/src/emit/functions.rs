@@ -55,7 +55,8 @@ pub(super) fn stubs(context: &Context, outline: &Outline) -> Part {
         sections: context.velocity.len(),
         outputs: context.outputs.as_ref().map_or(0, super::record::Record::len),
         parameters: super::symbols::parameter_places(context).len(),
-        ..Sizes::default()
+        vertical: outline.splitting.0,
+        lifted: outline.splitting.1,
     };
     let printer = Printer { context, sizes, results: Results::expected(context, outline) };
     let mut part = Part { items: printer.results.emit(context), ..Part::default() };
@@ -91,7 +92,7 @@ impl Printer<'_> {
             When::WithOutputs => self.context.outputs.is_some(),
             When::WithSection => outline.claims_section,
             When::WithConstraints => !outline.labels.is_empty(),
-            When::WithQuadratures => false,
+            When::WithQuadratures => !outline.quadratures.is_empty(),
         };
         is_there && self.is_known(signature.shape)
     }

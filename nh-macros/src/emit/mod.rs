@@ -88,7 +88,8 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
     let model = &system.model;
     let in_state = &system.state();
     let basis: Vec<SymbolId> = model.sections.iter().map(|section| section.symbol).collect();
-    let context = &Context::new(layout, in_state, &basis);
+    let outputs: Vec<String> = model.outputs.iter().map(|output| output.name.clone()).collect();
+    let context = &Context::new(layout, in_state, &basis).observing(&outputs);
     let scope = &Scope::new(context, model, in_state);
     let derivative = context.lowering.program(model, &system.derivative);
     let part = functions::emit(context, scope, system)

@@ -39,18 +39,7 @@ impl Results {
         if !system.momenta.is_empty() && system.functions.get(&functions::MOMENTA).is_some() {
             found.add(functions::Record::Momenta, momenta(context, &system.momenta));
         }
-        let types = &context.layout.types;
-        if !system.quadratures.is_empty() {
-            let about = "The rates of the coordinates that are not in the state";
-            let what = "rate of the coordinate";
-            let record = of_coordinates(context, &types.quadratures, about, &system.quadratures, what);
-            found.add(functions::Record::Quadratures, record);
-        }
-        if !system.gyroscopic.is_empty() {
-            let (about, what) = ("The gyroscopic force of the constraints", "force along the coordinate");
-            let record = of_coordinates(context, &types.gyroscopic, about, &system.gyroscopic, what);
-            found.add(functions::Record::Gyroscopic, record);
-        }
+        found.add_along(context, &system.quadratures, &system.gyroscopic);
         if let Some(procedure) = system.functions.get(&functions::POWER) {
             let directions = super::power::directions_of_forces(&system.model);
             let constraints = procedure.outputs.len().saturating_sub(directions.len());
@@ -76,6 +65,7 @@ impl Results {
         if !outline.momenta.is_empty() {
             found.add(functions::Record::Momenta, momenta(context, &outline.momenta));
         }
+        found.add_along(context, &outline.quadratures, &outline.gyroscopic);
         if asked(Request::Power) {
             let of_forces = super::power::of_forces(context, &outline.directions);
             found.add_if(functions::Record::PowerOfForces, of_forces);
@@ -84,6 +74,22 @@ impl Results {
             found.add_if(functions::Record::PowerOfConstraints, of_constraints);
         }
         found
+    }
+
+    /// The structs with a field for each of some coordinates.
+    fn add_along(&mut self, context: &Context, quadratures: &[SymbolId], gyroscopic: &[SymbolId]) {
+        let types = &context.layout.types;
+        if !quadratures.is_empty() {
+            let about = "The rates of the coordinates that are not in the state";
+            let what = "rate of the coordinate";
+            let record = of_coordinates(context, &types.quadratures, about, quadratures, what);
+            self.add(functions::Record::Quadratures, record);
+        }
+        if !gyroscopic.is_empty() {
+            let (about, what) = ("The gyroscopic force of the constraints", "force along the coordinate");
+            let record = of_coordinates(context, &types.gyroscopic, about, gyroscopic, what);
+            self.add(functions::Record::Gyroscopic, record);
+        }
     }
 
     fn add(&mut self, kind: functions::Record, record: Record) {

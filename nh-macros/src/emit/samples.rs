@@ -5,7 +5,8 @@ use nonholonomic_core::functions::{ENERGY, Functions, MULTIPLIERS, OUTPUTS, REAC
 use nonholonomic_core::id::{ExprId, Id, Origin, SymbolId, Table};
 use nonholonomic_core::mechanics::{Definition, Procedure};
 use nonholonomic_core::model::{
-    ConstraintDecl, Coordinate, Formulation, Input, Kinematics, Located, Model, Parameter, Section,
+    ConstraintDecl, Coordinate, Formulation, Input, Kinematics, Located, Model, OutputDecl, Parameter,
+    Section,
 };
 use nonholonomic_core::system::{ParameterCheck, Projection, System};
 use proc_macro2::TokenStream;
@@ -50,6 +51,11 @@ pub(crate) fn layout(sample: &Sample) -> Layout {
     layout
 }
 
+/// The names of all entries.
+fn names_of(families: &[Family]) -> impl Iterator<Item = String> {
+    families.iter().flat_map(Family::names)
+}
+
 /// A model with the symbols of a layout and nothing else.
 pub(crate) struct Builder {
     pub(crate) graph: Graph,
@@ -63,7 +69,7 @@ impl Builder {
         let time = graph.new_symbol("t");
         let mut symbols = |families: &[Family]| -> Vec<(String, SymbolId)> {
             let mut found = Vec::new();
-            for name in families.iter().flat_map(Family::names) {
+            for name in names_of(families) {
                 found.push((name.clone(), graph.new_symbol(name)));
             }
             found
@@ -92,7 +98,7 @@ impl Builder {
             lagrangian: Located { value: zero, origin },
             constraints: Table::new(),
             forces: Vec::new(),
-            outputs: Vec::new(),
+            outputs: names_of(&layout.outputs).map(|name| OutputDecl { name, value: zero, origin }).collect(),
             identities: Vec::new(),
             frame: Vec::new(),
             impacts: Vec::new(),

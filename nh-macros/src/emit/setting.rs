@@ -113,6 +113,17 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// The same with those outputs alone that are named here.
+    pub(super) fn observing(mut self, names: &[String]) -> Self {
+        let families = &self.layout.outputs;
+        let known: Vec<String> = families.iter().flat_map(Family::names).collect();
+        if let Some(outputs) = &mut self.outputs {
+            outputs.fields = entry_fields(families.iter(), &known, names, "output");
+        }
+        self.outputs = self.outputs.filter(|outputs| !outputs.fields.is_empty());
+        self
+    }
+
     /// The same where every number is one with derivatives in some directions; `layout` is to have a type parameter.
     pub(super) fn with_jets(&self, layout: &'a Layout, in_state: &[SymbolId]) -> Self {
         let (runtime, scalar) = (&self.runtime, &self.scalar);
@@ -238,19 +249,19 @@ fn auxiliary_fields(layout: &Layout, symbols: &[SymbolId]) -> Vec<Field> {
     entry_fields(layout.auxiliary.iter(), &layout.auxiliary_symbols, symbols, "auxiliary state")
 }
 
-/// The fields of those of some symbols that are entries of families, in order. Entries of a family
+/// The fields of those of some symbols, or names, that are entries of families, in order. Entries of a family
 /// that stand there as a whole, one after the other, are one array; else each entry is a field of its
 /// own.
-fn entry_fields<'a>(
+fn entry_fields<'a, Key: PartialEq>(
     families: impl Iterator<Item = &'a Family>,
-    known: &[SymbolId],
-    symbols: &[SymbolId],
+    known: &[Key],
+    wanted: &[Key],
     what: &str,
 ) -> Vec<Field> {
     let entries: Vec<(&Family, usize)> =
         families.flat_map(|family| (0..family.entries().len()).map(move |offset| (family, offset))).collect();
-    let place = |symbol: &SymbolId| known.iter().position(|known| known == symbol);
-    let positions: Vec<usize> = symbols.iter().filter_map(place).collect();
+    let place = |key: &Key| known.iter().position(|known| known == key);
+    let positions: Vec<usize> = wanted.iter().filter_map(place).collect();
     let mut fields = Vec::new();
     let mut rest = positions.as_slice();
     while let Some((first, others)) = rest.split_first() {

@@ -23,7 +23,11 @@ use crate::resolve::Outline;
 pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
     let declared: usize = layout.velocities.iter().map(|family| family.entries().len()).sum();
     let declared = layout.velocity_symbols.get(..declared).unwrap_or_default();
-    let context = &Context::new(layout, &outline.in_state, declared);
+    let context = Context::new(layout, &outline.in_state, declared);
+    let context = &match &outline.outputs {
+        None => context,
+        Some(outputs) => context.observing(outputs),
+    };
     let default = quote!(::core::default::Default::default());
     let mut methods = report_text::with_text(context, "");
     if outline.requests.contains(&Request::Explain) {

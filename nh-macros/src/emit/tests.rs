@@ -166,6 +166,10 @@ fn stubs_stand_in() {
     let layout = layout(&sleigh());
     let outline = Outline {
         directions: Vec::new(),
+        outputs: None,
+        gyroscopic: Vec::new(),
+        quadratures: Vec::new(),
+        splitting: (0, 0),
         in_state: [layout.coordinate_symbols.as_slice(), &layout.velocity_symbols[..2]].concat(),
         requests: vec![
             Request::Jacobian,

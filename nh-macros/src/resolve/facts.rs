@@ -210,6 +210,7 @@ impl Resolver {
         generic: bool,
     ) -> Vec<(Request, Origin)> {
         let mut found: Vec<(Request, Origin)> = Vec::new();
+        let mut is_told = false;
         for name in names {
             let text = name.text.as_str();
             let Some((_, request)) = Request::WORDS.iter().find(|(known, _)| *known == text) else {
@@ -242,7 +243,10 @@ impl Resolver {
                 let error =
                     Diagnostic::new(name.extent(), format!("there are no {text} without constraints"))
                         .way_out("state them in `constraints { … }`, or leave this out");
-                self.report(name, error);
+                // one section is missing, whatever is asked for of it
+                if !std::mem::replace(&mut is_told, true) {
+                    self.report(name, error);
+                }
                 continue;
             }
             let origin = self.origin(name.extent());

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use nonholonomic_core::id::{CoordId, Id};
+use nonholonomic_core::id::{CoordId, Id, Origin};
 use nonholonomic_core::model::{AnchorDecl, Kinematics, Located};
 
 use super::alike::Measured;
@@ -42,6 +42,8 @@ impl Resolver {
     fn anchor(&mut self, declaration: &SystemDecl, lines: &[Item<AnchorLine>]) -> Kinematics {
         let mut found: BTreeMap<CoordId, Option<AnchorDecl>> = BTreeMap::new();
         let mut lost = false;
+        // what `for` makes of a line stands at one place
+        let mut origins: BTreeMap<usize, Origin> = BTreeMap::new();
         self.section(Context::Anchor, lines, &mut |this, line| {
             let Ok((named, part)) = this.coordinate(&line.coordinate) else {
                 // which coordinate was meant is not known, so none is said to be missing
@@ -60,7 +62,9 @@ impl Resolver {
                 return Err(this.report(line, error));
             }
             let rates = this.components(line, part, &line.value)?;
-            let origin = this.origin(line.extent.to(line.value.extent));
+            let address = std::ptr::from_ref(line).addr();
+            let extent = line.extent.to(line.value.extent);
+            let origin = *origins.entry(address).or_insert_with(|| this.origin(extent));
             for (coordinate, rate) in ids.into_iter().zip(rates) {
                 let declared = &this.tables.coordinates[coordinate];
                 let expected = Measured::expected(format!("`der({})`", declared.name), line.extent);

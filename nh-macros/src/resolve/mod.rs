@@ -82,8 +82,8 @@ pub(crate) struct Resolved {
 pub(crate) struct Unresolved {
     /// What is wrong.
     pub(crate) errors: Vec<Diagnostic>,
-    /// What stubs are made of.
-    pub(crate) outline: Box<Outline>,
+    /// What is known, of which parts in error are left out: what stubs are made of.
+    pub(crate) model: Box<Model>,
 }
 
 /// Resolves a declaration. The layout starts from that of the struct; what is known of it is
@@ -94,9 +94,11 @@ pub(crate) fn resolve(declaration: &SystemDecl, layout: &mut Layout) -> Result<R
     resolver.declare(declaration, layout);
     resolver.surroundings(declaration, layout);
     let model = resolver.model(declaration, layout);
-    let outline = Box::new(Outline::of(&model));
     let Resolver { origins, reports, .. } = resolver;
-    reports.finish(Resolved { model, origins }).map_err(|errors| Unresolved { errors, outline })
+    match reports.finish(()) {
+        Ok(()) => Ok(Resolved { model, origins }),
+        Err(errors) => Err(Unresolved { errors, model: Box::new(model) }),
+    }
 }
 
 impl Resolver {
@@ -147,10 +149,12 @@ impl Resolver {
         sections.derivative.iter().for_each(|section| self.derivatives(&section.body));
         layout.methods = std::mem::take(&mut self.methods);
         let claims = sections.conserved.as_ref().map(|s| self.claims(&s.body)).unwrap_or_default();
-        let symmetries = sections.symmetries.as_ref().map(|s| self.symmetries(&s.body)).unwrap_or_default();
+        let (symmetries, broken) =
+            sections.symmetries.as_ref().map(|s| self.symmetries(&s.body)).unwrap_or_default();
         let volume = sections.volume.as_ref().and_then(|claim| self.volume(claim).ok());
         let hamilton_jacobi = sections.hamilton_jacobi.as_ref().map(|s| self.hamilton_jacobi(s));
-        let routh = sections.routh.as_ref().map(|s| self.routh(&s.body, &symmetries)).unwrap_or_default();
+        let routh =
+            sections.routh.as_ref().map(|s| self.routh(&s.body, (&symmetries, &broken))).unwrap_or_default();
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
         let requests = self.asked(declaration);
         self.unused();

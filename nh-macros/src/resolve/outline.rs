@@ -3,9 +3,10 @@
 use nonholonomic_core::algebra::{Derivation, Graph};
 use nonholonomic_core::id::{ExprId, Origin, SymbolId};
 use nonholonomic_core::model::{
-    AnchorDecl, ConstraintDecl, Formulation, ImpactDecl, ImpactRowDecl, Kinematics, Model, Request,
-    TrackedItem,
+    AnchorDecl, ConstraintDecl, Formulation, ImpactDecl, ImpactRowDecl, Kinematics, Model, OutputDecl,
+    Request, TrackedItem,
 };
+use nonholonomic_core::system::System;
 
 use super::declare::DIMENSION;
 use crate::emit::directions_of_forces;
@@ -19,12 +20,20 @@ const MOST: usize = 2 * DIMENSION;
 pub(crate) struct Outline {
     /// The coordinates and velocities in the state.
     pub(crate) in_state: Vec<SymbolId>,
+    /// The outputs that are kept, where `track` may leave some out.
+    pub(crate) outputs: Option<Vec<String>>,
     /// What is to be generated beyond the default.
     pub(crate) requests: Vec<Request>,
     /// The labels of the constraints.
     pub(crate) labels: Vec<Option<String>>,
     /// What the forces act along.
     pub(crate) directions: Vec<String>,
+    /// The coordinates along which the gyroscopic force acts.
+    pub(crate) gyroscopic: Vec<SymbolId>,
+    /// The coordinates that are left to quadratures.
+    pub(crate) quadratures: Vec<SymbolId>,
+    /// The rank of S = D ∩ V, and the number of the horizontal lifts.
+    pub(crate) splitting: (usize, usize),
     /// The labels of the momenta.
     pub(crate) momenta: Vec<String>,
     /// The number of identities of the base.
@@ -68,8 +77,10 @@ impl Outline {
     /// The outline of a model, of which parts in error are left out.
     pub(crate) fn of(model: &Model) -> Self {
         let labels = model.constraints.iter().map(|constraint| constraint.label.clone());
+        let in_state = in_state(model);
         Self {
-            in_state: in_state(model),
+            outputs: kept_outputs(model, &in_state),
+            in_state,
             requests: model.requests.iter().map(|(request, _)| *request).collect(),
             labels: labels.take(MOST).collect(),
             directions: directions_of_forces(model).into_iter().take(MOST).collect(),
@@ -80,7 +91,27 @@ impl Outline {
             kept: model.linearization.as_ref().map(|kept| linearized(model, &kept.variables)),
             impacts: model.impacts.iter().map(|impact| outlined(model, impact)).collect(),
             claims_section: model.hamilton_jacobi.is_some(),
+            gyroscopic: Vec::new(),
+            quadratures: Vec::new(),
+            splitting: (0, 0),
         }
+    }
+
+    /// The same with what was derived of a declaration without what is claimed and asked for.
+    pub(crate) fn derived(mut self, system: &System, with_momenta: bool) -> Self {
+        self.in_state = system.state();
+        self.outputs = Some(system.model.outputs.iter().map(|output| output.name.clone()).collect());
+        self.velocities = system.state_velocities.len();
+        if with_momenta {
+            self.momenta.clone_from(&system.momenta);
+        }
+        self.gyroscopic.clone_from(&system.gyroscopic);
+        self.quadratures.clone_from(&system.quadratures);
+        let sizes = system.sizes();
+        self.splitting = (sizes.vertical, sizes.lifted);
+        let kept = system.linearization.as_ref().map(|linearization| linearization.kept.len());
+        self.kept = self.kept.map(|guess| kept.unwrap_or(guess));
+        self
     }
 }
 
@@ -119,12 +150,33 @@ fn in_state(model: &Model) -> Vec<SymbolId> {
         }
     }
     if let Kinematics::Anchor(lines) = &model.kinematics {
-        let tracked = |line: &&AnchorDecl| needed.contains(&model.coordinates[line.coordinate].symbol);
-        let rates: Vec<ExprId> = lines.iter().filter(tracked).map(|line| line.rate).collect();
-        needed.extend(model.graph.symbols_in(&rates));
+        // what flows into a coordinate by its rate takes its own rate along
+        loop {
+            let tracked = |line: &&AnchorDecl| needed.contains(&model.coordinates[line.coordinate].symbol);
+            let rates: Vec<ExprId> = lines.iter().filter(tracked).map(|line| line.rate).collect();
+            let known = needed.len();
+            let found = model.graph.symbols_in(&rates).into_iter();
+            let more: Vec<SymbolId> = found.filter(|symbol| !needed.contains(symbol)).collect();
+            needed.extend(more);
+            if needed.len() == known {
+                break;
+            }
+        }
     }
     let auxiliary = auxiliary.filter(|symbol| needed.contains(symbol));
     coordinates.filter(|symbol| needed.contains(symbol)).chain(velocities).chain(auxiliary).collect()
+}
+
+/// The outputs that stand by variables of the state alone; nothing where all are kept, since all variables are.
+fn kept_outputs(model: &Model, in_state: &[SymbolId]) -> Option<Vec<String>> {
+    model.tracked.as_ref()?;
+    let coordinates = model.coordinates.iter().map(|coordinate| coordinate.symbol);
+    let mut missing = coordinates.chain(model.auxiliary.iter().map(|state| state.symbol)).collect::<Vec<_>>();
+    missing.retain(|symbol| !in_state.contains(symbol));
+    let is_kept = |output: &&OutputDecl| {
+        !model.graph.symbols_in(&[output.value]).iter().any(|symbol| missing.contains(symbol))
+    };
+    Some(model.outputs.iter().filter(is_kept).map(|output| output.name.clone()).collect())
 }
 
 /// The coordinates and velocities that Routh reduction probably takes out of the state.

@@ -9,23 +9,26 @@ use nonholonomic_core::units::Kind;
 use super::alike::Measured;
 use super::array::Shape;
 use super::context::Context;
-use super::reports::Outcome;
+use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use crate::report::Diagnostic;
 use crate::suggest::did_you_mean;
 use crate::syntax::ast::{Definition, Item, Subscript, Symmetry};
 
 impl Resolver {
-    /// The sections, vectors entry by entry.
-    pub(super) fn symmetries(&mut self, items: &[Item<Symmetry>]) -> Vec<SymmetryDecl> {
-        let mut found = Vec::new();
+    /// The sections, vectors entry by entry; and the labels of those in error.
+    pub(super) fn symmetries(&mut self, items: &[Item<Symmetry>]) -> (Vec<SymmetryDecl>, BTreeSet<String>) {
+        let (mut found, mut broken) = (Vec::new(), BTreeSet::new());
         let mut labels = BTreeSet::new();
         self.section(Context::Symmetries, items, &mut |this, symmetry| {
             let sections = this.symmetry(symmetry, &mut labels);
             this.abbreviates(&symmetry.label.text);
+            if sections.is_err() {
+                broken.insert(symmetry.label.text.clone());
+            }
             sections.map(|sections| found.extend(sections))
         });
-        found
+        (found, broken)
     }
 
     fn symmetry(&mut self, symmetry: &Symmetry, labels: &mut BTreeSet<String>) -> Outcome<Vec<SymmetryDecl>> {
@@ -75,10 +78,13 @@ impl Resolver {
     pub(super) fn routh(
         &mut self,
         items: &[Item<Definition>],
-        symmetries: &[SymmetryDecl],
+        (symmetries, broken): (&[SymmetryDecl], &BTreeSet<String>),
     ) -> Vec<RouthDecl> {
         let mut found: Vec<RouthDecl> = Vec::new();
         self.section(Context::Routh, items, &mut |this, definition| {
+            if broken.contains(&definition.name.text) {
+                return Err(Reported);
+            }
             for level in this.levels(definition, symmetries)? {
                 if found.iter().any(|earlier| earlier.symmetry == level.symmetry) {
                     let what = format!("the momentum of `{}` is on two levels", level.symmetry);
@@ -123,7 +129,7 @@ impl Resolver {
             let way_out = did_you_mean(name, known.iter().map(String::as_str))
                 .unwrap_or_else(|| "declare its section: `symmetries { spin: omega; }`".to_owned());
             let error = Diagnostic::new(definition.extent, what).way_out(way_out);
-            return Err(self.report(definition, error));
+            return Err(self.reports.report_unknown(definition, name, error));
         }
         let value = self.value(&definition.value)?;
         let values = if names == [entry] || names == [label] {

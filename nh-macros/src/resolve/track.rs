@@ -3,7 +3,7 @@
 use nonholonomic_core::id::{Origin, SymbolId};
 use nonholonomic_core::model::{OutputDecl, TrackedItem};
 
-use super::reports::Outcome;
+use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
 use crate::report::Diagnostic;
@@ -73,7 +73,11 @@ impl Resolver {
     /// Coordinates, velocities or auxiliary states by their name; nothing if the name is none of theirs.
     pub(super) fn variables_of_state(&mut self, place: &Place) -> Option<Outcome<Vec<SymbolId>>> {
         let text = &place.name.text;
-        let Some(Meaning::Named(named)) = self.scope.get(text).cloned() else { return None };
+        let named = match self.scope.get(text).cloned() {
+            Some(Meaning::Named(named)) => named,
+            Some(Meaning::Broken) => return Some(Err(Reported)),
+            _ => return None,
+        };
         match named.role {
             Role::Auxiliary => {
                 let part = self.part(&format!("`{text}`"), named.shape, &place.indices);
@@ -90,13 +94,13 @@ impl Resolver {
         }
     }
 
-    fn not_trackable(&mut self, place: &Place, outputs: &[OutputDecl]) -> super::reports::Reported {
+    fn not_trackable(&mut self, place: &Place, outputs: &[OutputDecl]) -> Reported {
         let text = &place.name.text;
         let family = format!("{text}[");
         let is_known = outputs.iter().any(|output| output.name == *text || output.name.starts_with(&family));
         if !is_known && self.scope.outputs.contains(text) {
             // it is in error, which was reported
-            return super::reports::Reported;
+            return Reported;
         }
         let what = format!("`{text}` is neither a state variable nor an output");
         let error = Diagnostic::new(place.extent, what);

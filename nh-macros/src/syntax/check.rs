@@ -78,17 +78,21 @@ fn refuse_two_frames(declaration: &SystemDecl, errors: &mut Errors) {
 /// Anchors and brackets speak about the sections of a basis.
 fn require_basis(declaration: &SystemDecl, errors: &mut Errors) {
     let s = &declaration.sections;
-    if s.basis.is_some() || s.velocities.is_some() {
+    // without a base that there are none is said already
+    if s.basis.is_some() || s.velocities.is_some() || s.base.is_none() {
         return;
     }
-    let anchor = s.anchor.iter().map(|s| &s.keyword);
-    for keyword in anchor.chain(s.brackets.iter().map(|s| &s.keyword)) {
-        errors.push(
-            Diagnostic::new(keyword.extent(), format!("`{}` without `basis`", keyword.text))
-                .evidence("there are no quasi-velocities but the derivatives of the base coordinates")
-                .way_out("add `basis { omega, v1 }`, or leave the section out"),
-        );
-    }
+    let (anchor, brackets) = (s.anchor.as_ref().map(|s| &s.keyword), s.brackets.first().map(|s| &s.keyword));
+    let Some(first) = anchor.or(brackets) else { return };
+    let (what, sections) = match (anchor, brackets) {
+        (Some(_), Some(_)) => ("`anchor` and `brackets` without `basis`".to_owned(), "sections"),
+        _ => (format!("`{}` without `basis`", first.text), "section"),
+    };
+    errors.push(
+        Diagnostic::new(first.extent(), what)
+            .evidence("there are no quasi-velocities but the derivatives of the base coordinates")
+            .way_out(format!("add `basis {{ omega, v1 }}`, or leave the {sections} out")),
+    );
 }
 
 #[cfg(test)]

@@ -15,6 +15,8 @@ mod record;
 mod relations;
 mod tokens;
 
+#[path = "../../../nh-macros/src/derived_outline.rs"]
+mod derived_outline;
 #[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
 #[path = "../../../nh-macros/src/emit/mod.rs"]
 mod emit;

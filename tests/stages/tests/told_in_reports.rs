@@ -33,6 +33,17 @@ fn reports_say_which_velocities_keep_their_name_and_have_another_value() {
     assert!(rates.contains("is y_dot + a*roll"), "{rates}");
 }
 
+/// What `track` leaves out takes the outputs along that need it.
+#[test]
+fn reports_say_which_outputs_are_left_out() {
+    let declared =
+        "base { x, y } lagrangian { m/2*(der(x)^2 + der(y)^2) } outputs { place = [x, y]; far = x; }";
+    let told = report(&format!("{declared} track {{ der(x), y }}"), FIELDS);
+    for output in ["the output `place[0]`, which depends on x", "the output `far`, which depends on x"] {
+        assert!(told.contains(output), "{told}");
+    }
+}
+
 /// What constraints say of velocities may be the rate of positions.
 #[test]
 fn integrable_constraints_are_pointed_to_holonomic() {
