@@ -120,7 +120,14 @@ fn place(
         let value = graph.simplify(value);
         graph.vanishes_nowhere(value, facts) || graph.has_no_zeros(value, facts)
     };
-    let is_known = manifold.open_parts().is_empty() && !manifold.is_whole();
+    // what images divide by may vanish where the constraints hold, on a part that no chart reaches
+    let images = manifold.parts().flat_map(|part| part.images().iter().map(|(_, image)| *image));
+    let images: Vec<ExprId> = images.collect();
+    let is_reached = graph.divisors(&images).into_iter().all(|divisor| {
+        let left_out = [demands.as_slice(), &[(divisor, Demand::Zero)]].concat();
+        vanishes_nowhere(graph, divisor) || graph.contradiction(&left_out).is_some()
+    });
+    let is_known = manifold.open_parts().is_empty() && !manifold.is_whole() && is_reached;
     let on_parts: Vec<ExprId> = manifold.parts().map(|part| part.restrict(graph, factor)).collect();
     if is_known && on_parts.into_iter().all(|value| vanishes_nowhere(graph, value)) {
         return None;

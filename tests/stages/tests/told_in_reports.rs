@@ -272,6 +272,18 @@ fn roots_are_told_where_derivatives_are_asked_for() {
     assert_eq!(told("x: asin(y);", "emit { jacobian }"), ["|y| < 1"]);
 }
 
+/// What no chart of the constraint manifold reaches may be a part of it: where x = y = 0, u v - z w may be anything, and
+/// where charts divide by x and y it is 0.
+#[test]
+fn places_on_parts_that_no_chart_reaches_are_told() {
+    let report = report(
+        "base { x, y, u, v, w, z, q } lagrangian { m*(der(x)^2 + der(y)^2 + der(u)^2 + der(v)^2 + der(w)^2 + der(z)^2) \
+         + m*(u*v - z*w + 1)^2*der(q)^2 } holonomic { first: x*u = y*z; second: y*v = x*w; } assume { m > 0; }",
+        FIELDS,
+    );
+    assert!(report.contains("the equations are singular where u*v - z*w + 1 = 0"), "{report}");
+}
+
 /// Where forces with roots have slopes at rest, so have the programs of all Jacobians, whatever form the equations have;
 /// those for which that is not proved are told.
 #[test]
