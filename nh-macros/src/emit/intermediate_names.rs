@@ -36,6 +36,8 @@ impl Names {
             "given",
             "way",
             "angles",
+            "open",
+            "moved",
         ]
         .map(str::to_owned)
         .into();
