@@ -22,6 +22,9 @@ mod stopwatch;
 use nh_bench::contest_table::cell;
 
 #[allow(dead_code, unused_imports, reason = "the other macros use more")]
+#[path = "../../../../../nh-macros/src/derived_outline.rs"]
+mod derived_outline;
+#[allow(dead_code, unused_imports, reason = "the other macros use more")]
 #[path = "../../../../../nh-macros/src/emit/mod.rs"]
 mod emit;
 #[allow(dead_code, unused_imports, reason = "the other macros use more")]
