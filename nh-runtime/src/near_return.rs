@@ -32,6 +32,7 @@ const TELLING: f64 = 1024.0;
 /// to the constraints, where velocities change by more, and where something is not finite, the way is left to iterations that
 /// lead back from further away, and so is that of derivatives that numbers carry. Lanes go together.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "they stay in registers, and are asked for one by one")]
 pub struct NearReturn<T, const N: usize, const M: usize> {
     /// The largest residual at the start.
     residual: T,

@@ -210,8 +210,8 @@ macro_rules! goes_straight {
     ($Sleigh:ident, $State:ident) => {{
         let sleigh = $Sleigh { m: 1.3, J: 0.2, l: 0.3, c: 0.1, d: 0.4 };
         let smooth = $Sleigh { d: 0.0, ..sleigh };
-        for step in 0..2000 {
-            let (theta, speed) = (0.01 * f64::from(step), [0.0, 1.0, 0.37, 1e-3][step as usize % 4]);
+        for (step, speed) in (0..2000).zip([0.0, 1.0, 0.37, 1e-3].into_iter().cycle()) {
+            let theta = 0.01 * f64::from(step);
             let state =
                 $State { theta, x_dot: speed * theta.cos(), y_dot: speed * theta.sin(), ..$State::default() };
             let [found, wanted] =

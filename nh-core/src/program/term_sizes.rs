@@ -96,7 +96,6 @@ impl Sizes<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::algebra::Graph;
     use crate::mechanics::Procedure;
     use crate::program::{interpret, schedule};
