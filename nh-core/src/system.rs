@@ -164,11 +164,6 @@ pub struct PositionReturn {
     /// Outputs: how the velocities in the state change to satisfy all constraints where they are; `None` where these
     /// hold by themselves, and where they are not affine in the velocities: then there is a [`Projection`].
     pub velocities: Option<Procedure>,
-    /// What both changes are for: their intermediate results that are what is left of an equation, those of the step
-    /// first.
-    pub open: Vec<SymbolId>,
-    /// How that changes near to where it is known.
-    pub nearby: Nearby,
     /// Outputs: what the constraints were divided by to solve them for velocities, as far as it depends on the
     /// configuration; nothing in the projected formulation.
     pub pivots: Procedure,
@@ -176,16 +171,6 @@ pub struct PositionReturn {
     pub assembly: Assembly,
     /// The derivatives of the way back, if they are asked for.
     pub slopes: Option<SlopesOfReturn>,
-}
-
-/// How what is left of equations changes where the coordinates do.
-#[derive(Clone, Debug, Default)]
-pub struct Nearby {
-    /// The coordinates, and by how much each changes.
-    pub by: Vec<(SymbolId, SymbolId)>,
-    /// Outputs: of each equation on positions the change to first order, then for each that of second order; then of each
-    /// on velocities the change to first order.
-    pub changes: Procedure,
 }
 
 /// The derivatives of one step back to position constraints, row by row.

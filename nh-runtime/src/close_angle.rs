@@ -45,7 +45,7 @@ impl<T: Scalar> CloseAngle<T> {
             return (sin + (cos * sine - sin * versine), cos - (sin * sine + cos * versine));
         }
         // far away, or not a number
-        let (sin, cos) = angle.quick_sin_cos();
+        let (sin, cos) = angle.sin_cos();
         let beside = sin.abs().min(cos.abs()) * T::from_f64(0.25);
         *self = Self { angle, sin, cos, reach: T::from_f64(CLOSE).min(beside) };
         (sin, cos)
@@ -60,13 +60,13 @@ mod tests {
     use super::CloseAngle;
     use crate::{Jet, Scalar};
 
-    /// As the crate computes them where it may be quick.
+    /// As the crate computes them.
     fn computed(angle: f64) -> (f64, f64) {
-        Scalar::quick_sin_cos(angle)
+        Scalar::sin_cos(angle)
     }
 
     #[test]
-    fn sines_of_close_angles_stay_within_units_of_the_last_place() {
+    fn sines_of_close_angles_stay_within_a_unit_of_the_last_place() {
         let (mut worst, mut worst_single) = (0.0_f64, 0.0_f64);
         for step in 0..20_000_u32 {
             let angle = 40.0 * (f64::from(step) * 1.1e-3).sin() + f64::from(step) * 1e-3;

@@ -81,7 +81,6 @@ mod elementary;
 pub mod ensemble;
 mod error;
 mod events;
-mod factorised;
 mod fast;
 #[cfg(feature = "macros")]
 pub mod guide;
@@ -414,7 +413,6 @@ pub mod __private {
     pub use crate::TaylorSeries;
     pub use crate::assembly::{AssemblyError, Loops, assemble, assemble_holding};
     pub use crate::close_angle::CloseAngle;
-    pub use crate::factorised::Factorised;
     pub use crate::impacts;
     pub use crate::inclusion::{restricted, returned};
     pub use crate::kept_parameters::kept_parameters;
@@ -422,7 +420,7 @@ pub mod __private {
     pub use crate::linear_model::{
         Directed, FirstOrder, Linearization, LinearizationError, Names, Parts, linearize, to_first_order,
     };
-    pub use crate::near_return::{NearReturn, are_rounding};
+    pub use crate::near_return::{NearReturn, Next};
     pub use crate::newton_return::{corrected, first_iterate, newton, product_of_signs, worst};
     pub use crate::projection::{MOST_RETURNS, check_identities, holds, largest, project, stays};
     pub use crate::series::History;

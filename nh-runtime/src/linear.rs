@@ -41,7 +41,7 @@ impl<T: Real> Entry for Complex<T> {
 
 /// The largest absolute value of a row, inverted.
 #[inline]
-pub(crate) fn scale<T: Scalar>(row: &[T]) -> T {
+fn scale<T: Scalar>(row: &[T]) -> T {
     row.iter().fold(T::ZERO, |largest, x| largest.max(x.abs())).recip()
 }
 

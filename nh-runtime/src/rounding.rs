@@ -238,11 +238,6 @@ fn of_precision<T: Scalar>(long: f64, short: f64) -> T {
     is_long.select_gt(T::ONE, T::from_f64(long), T::from_f64(short))
 }
 
-/// A rounding of 1.
-pub(crate) fn rounding_of_one<T: Scalar>() -> T {
-    of_precision(1.0 / 4_503_599_627_370_496.0, 1.0 / 8_388_608.0)
-}
-
 /// The root of a rounding of 1.
 pub(crate) fn half_of_the_digits<T: Scalar>() -> T {
     of_precision(1.0 / 67_108_864.0, 1.0 / 4096.0)

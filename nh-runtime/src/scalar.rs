@@ -68,12 +68,6 @@ pub trait Scalar:
     fn sin_cos(self) -> (Self, Self) {
         (self.sin(), self.cos())
     }
-    /// Sine and cosine together to two units of their last places, by what takes least: where an iteration mends them.
-    #[doc(hidden)]
-    #[inline]
-    fn quick_sin_cos(self) -> (Self, Self) {
-        self.sin_cos()
-    }
     /// The tangent of an angle in radians.
     #[must_use]
     fn tan(self) -> Self;
@@ -225,10 +219,6 @@ macro_rules! primitive {
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
                 elementary::$angle::sin_cos(self)
-            }
-            #[inline]
-            fn quick_sin_cos(self) -> (Self, Self) {
-                crate::sine::sin_cos(self)
             }
             primitive! { @forward $functions;
                 sqrt() cbrt() tan() asin() acos() atan() atan2(x) sinh() cosh() tanh()

@@ -6,8 +6,8 @@ use crate::algebra::{Graph, Matrix, Substitution};
 use crate::choose::cheapest;
 use crate::geometry::Anchor;
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::{Definiteness, Definition, Procedure, SaddleEquations};
-use crate::system::{Nearby, PositionReturn};
+use crate::mechanics::{Definiteness, Procedure, SaddleEquations};
+use crate::system::PositionReturn;
 
 /// One Newton step x := x + ρ(δ), where δ makes δᵀWδ stationary under A δ = −f: mathematics (35). Where that does
 /// not determine δ, the rows of the other constraints are added, Φ δ = 0. `None` without position constraints.
@@ -46,88 +46,11 @@ pub(super) fn position_return(
             equations.bias.push(graph.zero());
         }
     }
-    let left = named(graph, &mut equations);
-    let (way, mut step) = step(graph, &equations, &proved.system.algebroid.anchor, &judge);
-    let (mut open, of_step) = symbols(&left);
-    let mut of_velocities = Vec::new();
-    step.definitions.splice(0..0, left);
-    let velocities = rates.map(|mut rates| {
-        let left = named(graph, &mut rates);
-        let mut velocities = way.solution(graph, &rates, &judge);
-        let (symbols, values) = symbols(&left);
-        open.extend(symbols);
-        of_velocities = values;
-        velocities.definitions.splice(0..0, left);
-        velocities
-    });
-    let coordinates: Vec<SymbolId> = proved.model.coordinates.iter().map(|c| c.symbol).collect();
-    let nearby = nearby(graph, &coordinates, (&of_step, &of_velocities));
+    let (way, step) = step(graph, &equations, &proved.system.algebroid.anchor, &judge);
+    let velocities = rates.map(|rates| way.solution(graph, &rates, &judge));
     let assembly = assembly(proved, (states, velocity), residuals);
     let pivots = Procedure::default();
-    Some(PositionReturn {
-        redundant,
-        count,
-        residual,
-        step,
-        velocities,
-        open,
-        nearby,
-        pivots,
-        assembly,
-        slopes: None,
-    })
-}
-
-/// What the equations are open by, as intermediate results that the right-hand sides are then made of: what they are
-/// solved with is known without these, and serves at the next place as well.
-fn named(graph: &mut Graph, equations: &mut SaddleEquations) -> Vec<Definition> {
-    let mut left = Vec::new();
-    let zero = graph.zero();
-    for bias in equations.bias.iter_mut().filter(|bias| **bias != zero) {
-        let value = graph.formula(-*bias);
-        let symbol = graph.new_symbol("open");
-        left.push(Definition::Value { symbol, value });
-        let open = graph.symbol(symbol);
-        *bias = graph.formula(-open);
-    }
-    left
-}
-
-fn symbols(definitions: &[Definition]) -> (Vec<SymbolId>, Vec<ExprId>) {
-    let symbol = |definition: &Definition| match definition {
-        Definition::Value { symbol, value } => Some((*symbol, *value)),
-        Definition::Call { .. } | Definition::Solve { .. } => None,
-    };
-    definitions.iter().filter_map(symbol).unzip()
-}
-
-/// How equations change where the coordinates do, those of positions to second order and those of velocities to first.
-fn nearby(
-    graph: &mut Graph,
-    coordinates: &[SymbolId],
-    (of_positions, of_velocities): (&[ExprId], &[ExprId]),
-) -> Nearby {
-    let by: Vec<(SymbolId, SymbolId)> =
-        coordinates.iter().map(|coordinate| (*coordinate, graph.new_symbol("moved"))).collect();
-    let along = |graph: &mut Graph, value: ExprId| {
-        let mut terms = Vec::new();
-        for (coordinate, moved) in &by {
-            let slope = graph.partial(value, *coordinate);
-            let moved = graph.symbol(*moved);
-            terms.push(graph.formula(slope * moved));
-        }
-        let sum = graph.sum(&terms);
-        graph.simplify(sum)
-    };
-    let slopes: Vec<ExprId> = of_positions.iter().map(|value| along(graph, *value)).collect();
-    let mut bend = |slope: &ExprId| {
-        let twice = along(graph, *slope);
-        graph.formula(twice / 2)
-    };
-    let bends: Vec<ExprId> = slopes.iter().map(&mut bend).collect();
-    let rates: Vec<ExprId> = of_velocities.iter().map(|value| along(graph, *value)).collect();
-    let changes = Procedure::of([slopes, bends, rates].concat());
-    Nearby { by, changes }
+    Some(PositionReturn { redundant, count, residual, step, velocities, pivots, assembly, slopes: None })
 }
 
 /// ρ(δ), and the way that takes least.

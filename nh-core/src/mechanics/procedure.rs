@@ -92,21 +92,6 @@ impl Procedure {
         joined
     }
 
-    /// The same function of some of its intermediate results, as of arguments, and the values of these, in their order.
-    #[must_use]
-    pub fn opened(&self, arguments: &[SymbolId]) -> (Self, Vec<(SymbolId, ExprId)>) {
-        let mut opened = self.clone();
-        let mut values = Vec::new();
-        opened.definitions.retain(|definition| match definition {
-            Definition::Value { symbol, value } if arguments.contains(symbol) => {
-                values.push((*symbol, *value));
-                false
-            }
-            _ => true,
-        });
-        (opened, values)
-    }
-
     /// A function whose intermediate results stay in place: for expressions that are only studied.
     #[must_use]
     pub fn inline() -> Self {

@@ -54,7 +54,6 @@ mod split;
 mod step;
 mod tape;
 mod taylor;
-mod term_sizes;
 mod text;
 mod vanishing_lengths;
 mod vertex_order;

@@ -36,8 +36,6 @@ impl Names {
             "given",
             "way",
             "angles",
-            "open",
-            "moved",
         ]
         .map(str::to_owned)
         .into();

@@ -2,7 +2,7 @@
 
 use nonholonomic_core::functions::RESIDUAL;
 use nonholonomic_core::id::SymbolId;
-use nonholonomic_core::program::Value;
+use nonholonomic_core::program::Program;
 use nonholonomic_core::system::{PositionReturn, System};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -10,35 +10,26 @@ use quote::quote;
 use super::infix::element;
 use super::layout::local;
 use super::place::Place;
-use super::program::{Body, Writer, body};
+use super::program::body;
 use super::projection::step_of_velocities;
 use super::results::residual_names;
 use super::setting::Context;
 use super::symbols::{Argument, Scope};
 
-/// `|present| { … }`: outputs at a place, in the array of the coordinates, or of the velocities.
+/// `|present| { … }`: outputs of a program, in the array of the coordinates, or of the velocities.
 pub(super) fn in_array(
     context: &Context,
     system: &System,
     moved: &[SymbolId],
-    (place, outputs): (&Place, &[Value]),
+    program: &Program,
 ) -> TokenStream {
-    let (present, open) = (local("present"), local("open"));
-    let (symbols, values) = place.open_of(outputs);
-    let scope = Scope::new(context, &system.model, &system.state())
-        .with_array(Argument::Present, &present, moved)
-        .with_array(Argument::Open, &open, &symbols);
-    let program = &*place.program.with_known_numbers();
-    let mut writer = Writer::new(context, &scope, program, None);
-    let look = (!values.is_empty()).then(|| writer.write(&values));
-    let look = look.map(|Body { statements, outputs, .. }| {
-        let outputs = outputs.iter().map(element);
-        quote!(#statements let #open = [#(#outputs),*];)
-    });
-    let body = writer.write(outputs);
+    let present = local("present");
+    let scope = Scope::new(context, &system.model, &system.state());
+    let scope = scope.with_array(Argument::Present, &present, moved);
+    let body = body(context, &scope, program);
     let argument = if body.used.contains(&Argument::Present) { quote!(#present) } else { quote!(_) };
     let (statements, outputs) = (&body.statements, body.outputs.iter().map(element));
-    quote!(|#argument| { #look #statements [#(#outputs),*] })
+    quote!(|#argument| { #statements [#(#outputs),*] })
 }
 
 /// The statement of `project` that moves the coordinates of `state`.
@@ -47,10 +38,8 @@ pub(super) fn iteration(context: &Context, system: &System, positions: &Position
     let places = context.state.places(&context.locals.state);
     let coordinates = &places[..system.state_coordinates.len().min(places.len())];
     let place = Place::of(context, system, positions);
-    let in_array =
-        |outputs: &[Value]| in_array(context, system, &system.state_coordinates, (&place, outputs));
-    let [residual, ..] = place.look();
-    let (change, residual) = (in_array(place.change()), in_array(residual));
+    let in_array = |program: &Program| in_array(context, system, &system.state_coordinates, program);
+    let (change, residual) = (in_array(&place.change()), in_array(&place.residual()));
     quote!([#(#coordinates),*] = #runtime::newton([#(#coordinates),*], #change, #residual)?;)
 }
 
@@ -62,8 +51,8 @@ pub(super) fn hooks(context: &Context, system: &System) -> TokenStream {
     let places = context.state.places(state);
     let (coordinates, rest) = places.split_at(system.state_coordinates.len().min(places.len()));
     let velocities = &rest[..system.state_velocities.len().min(rest.len())];
-    let place = Place::of(context, system, positions);
-    let change = in_array(context, system, &system.state_coordinates, (&place, place.change()));
+    let change = Place::of(context, system, positions).change();
+    let change = in_array(context, system, &system.state_coordinates, &change);
     let of_velocities = step_of_velocities(context, system)
         .map(|step| quote!([#(#velocities),*] = #runtime::first_iterate([#(#velocities),*], #step);));
     let count = system.functions.get(&RESIDUAL).map_or(0, |residual| residual.outputs.len());

@@ -35,6 +35,36 @@ pub(super) fn body(context: &Context, scope: &Scope, program: &Program) -> Body 
     written(context, scope, program, None).0
 }
 
+/// Statements of a program whose outputs come in groups: what the first group takes; then, for each of the others, what
+/// it takes beside that, to stand where the former are known. Sines and cosines are taken from angles at hand, and there
+/// are so many of these.
+pub(super) fn body_in_branches(
+    context: &Context,
+    scope: &Scope,
+    program: &Program,
+    (groups, angles): (&[usize], &Ident),
+) -> (Body, Vec<Body>, usize) {
+    let program = &*program.with_known_numbers();
+    let mut outputs = program.outputs.as_slice();
+    let mut next = |count: usize| {
+        let (group, rest) = outputs.split_at(count.min(outputs.len()));
+        outputs = rest;
+        group
+    };
+    let (first, others) = groups.split_first().unwrap_or((&0, &[]));
+    let mut writer = Writer::new(context, scope, program, Some(angles));
+    let always = writer.write(next(*first));
+    let mut most = writer.angles;
+    let mut branch = |count: &usize| {
+        let mut writer = writer.clone();
+        let body = writer.write(next(*count));
+        most = most.max(writer.angles);
+        body
+    };
+    let branches = others.iter().map(&mut branch).collect();
+    (always, branches, most)
+}
+
 /// The same with every sine and cosine taken from angles at hand, and the number of these.
 pub(super) fn body_near_angles(
     context: &Context,
@@ -78,9 +108,8 @@ fn written(context: &Context, scope: &Scope, program: &Program, at_hand: Option<
     (body, writer.angles)
 }
 
-/// Writes the statements of some outputs after those of others: what is known is not computed again.
 #[derive(Clone)]
-pub(super) struct Writer<'a> {
+struct Writer<'a> {
     context: &'a Context<'a>,
     scope: &'a Scope<'a>,
     program: &'a Program,
@@ -101,15 +130,11 @@ pub(super) struct Writer<'a> {
     /// The array of angles at hand, where sines and cosines are taken from these.
     at_hand: Option<&'a Ident>,
     /// How many there are.
-    pub(super) angles: usize,
-    /// What is computed ahead for steps that are written several times has a variable.
-    ahead: BTreeSet<Value>,
-    /// The variables of matrices that were factorised ahead.
-    factorised: BTreeMap<Vec<Vec<Value>>, Ident>,
+    angles: usize,
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(
+    fn new(
         context: &'a Context<'a>,
         scope: &'a Scope<'a>,
         program: &'a Program,
@@ -131,60 +156,18 @@ impl<'a> Writer<'a> {
             used: BTreeSet::new(),
             at_hand,
             angles: 0,
-            ahead: BTreeSet::new(),
-            factorised: BTreeMap::new(),
         }
-    }
-
-    /// The statements of what some outputs take that does not depend on certain symbols, so that these outputs can be written
-    /// again for other values of them.
-    pub(super) fn write_ahead(&mut self, outputs: &[Value], of_others: &[SymbolId]) -> TokenStream {
-        let needed = self.program.needed_by(outputs);
-        let mut depends: Table<Value, bool> = Table::new();
-        for step in &self.program.steps {
-            let depending = match step {
-                Step::Load(symbol) => of_others.contains(symbol),
-                _ => step.operands().iter().any(|operand| depends[*operand]),
-            };
-            depends.push(depending);
-        }
-        let mut systems: Vec<Vec<Vec<Value>>> = Vec::new();
-        for (value, step) in self.program.steps.iter_ids().filter(|(value, _)| needed[*value]) {
-            match step {
-                _ if !depends[value] => {}
-                Step::Solve { matrix, .. } if !matrix.iter().flatten().any(|entry| depends[*entry]) => {
-                    systems.push(matrix.clone());
-                    self.ahead.extend(step.operands().iter().filter(|operand| !depends[**operand]));
-                }
-                _ => self.ahead.extend(step.operands().iter().filter(|operand| !depends[**operand])),
-            }
-        }
-        let ahead: Vec<Value> = self.ahead.iter().copied().collect();
-        let mut statements = self.write(&ahead).statements;
-        for matrix in systems.into_iter().filter(|matrix| !matrix.is_empty()) {
-            if self.factorised.contains_key(&matrix) {
-                continue;
-            }
-            let (name, rows) = (self.names.numbered(), self.rows(&matrix));
-            let Context { runtime, scalar, .. } = self.context;
-            let length = Literal::usize_unsuffixed(matrix.len());
-            statements.extend(quote!(let #name = #runtime::Factorised::<#scalar, #length>::of(#rows);));
-            self.factorised.insert(matrix, name);
-        }
-        statements
     }
 
     /// The statements of some outputs, as far as these are not known.
-    pub(super) fn write(&mut self, outputs: &[Value]) -> Body {
+    fn write(&mut self, outputs: &[Value]) -> Body {
         let needed = self.program.needed_by(outputs);
         for (value, step) in self.program.steps.iter_ids() {
             if !needed[value] || self.known[value] || self.uses[value] == 0 {
                 continue;
             }
             let expression = self.step(value, step);
-            let shared = self.uses[value] > 1
-                || self.program.names.contains_key(&value)
-                || self.ahead.contains(&value);
+            let shared = self.uses[value] > 1 || self.program.names.contains_key(&value);
             // angles at hand are borrowed one after the other: none inside of another's argument
             let borrows =
                 self.at_hand.is_some() && matches!(step, Step::Apply(Function::Sin | Function::Cos, _));
@@ -403,19 +386,14 @@ impl<'a> Writer<'a> {
         Expression::atom(TokenStream::new(), 0)
     }
 
-    fn list(&self, values: &[Value]) -> TokenStream {
-        let tokens = values.iter().map(|v| element(&self.expressions[*v].tokens));
-        quote!([#(#tokens),*])
-    }
-
-    fn rows(&self, matrix: &[Vec<Value>]) -> TokenStream {
-        let rows = matrix.iter().map(|row| self.list(row));
-        quote!([#(#rows),*])
-    }
-
     fn solve(&mut self, value: Value, matrix: &[Vec<Value>], right: &[Value]) -> Expression {
         let Context { runtime, scalar, .. } = self.context;
-        let right_tokens = self.list(right);
+        let list = |values: &[Value]| {
+            let tokens = values.iter().map(|v| element(&self.expressions[*v].tokens));
+            quote!([#(#tokens),*])
+        };
+        let rows: Vec<_> = matrix.iter().map(|row| list(row)).collect();
+        let right_tokens = list(right);
         let length = Literal::usize_unsuffixed(right.len());
         let variables: Vec<Option<Ident>> = unknowns(self.program, value, right.len())
             .into_iter()
@@ -423,13 +401,10 @@ impl<'a> Writer<'a> {
             .collect();
         let pattern =
             variables.iter().map(|name| name.as_ref().map_or_else(|| quote!(_), |name| quote!(#name)));
-        let solution = if let Some(factors) = self.factorised.get(matrix) {
-            quote!(#factors.solve(#right_tokens))
-        } else {
-            let rows = self.rows(matrix);
-            quote!(#runtime::solve_pivoted::<#scalar, #length>(#rows, #right_tokens))
-        };
-        self.statements.extend(quote!(let [#(#pattern),*] = #solution;));
+        self.statements.extend(quote! {
+            let [#(#pattern),*] =
+                #runtime::solve_pivoted::<#scalar, #length>([#(#rows),*], #right_tokens);
+        });
         self.systems.insert(value, variables);
         Expression::atom(TokenStream::new(), 0)
     }

@@ -26,11 +26,11 @@ pub(super) fn emit(context: &Context, system: &System) -> Part {
     if count > 0 && (system.projection.is_some() || system.positions.is_some()) {
         part.methods = method(context, system);
         let place = system.positions.as_ref().map(|positions| Place::of(context, system, positions));
-        let of_positions = place.as_ref().map(|place| place.whole(place.change()));
+        let of_positions = place.as_ref().map(Place::change);
         let projection = system.projection.as_ref();
         let of_velocities = projection
             .map(|projection| context.lowering.program(&system.model, &projection.step))
-            .or_else(|| place.as_ref().and_then(|place| Some(place.whole(place.change_of_velocities()?))));
+            .or_else(|| place.as_ref()?.change_of_velocities());
         part.programs.extend(of_positions.map(|step| ("project, each step of positions", step)));
         part.programs.extend(of_velocities.map(|step| ("project, each step", step)));
         constraints = Some(count);
@@ -107,9 +107,8 @@ pub(super) fn step_of_velocities(context: &Context, system: &System) -> Option<T
         let step = context.lowering.program(&system.model, &projection.step);
         return Some(closure(context, system, &projection.start, &system.state_velocities, &step));
     }
-    let place = Place::of(context, system, system.positions.as_ref()?);
-    let change = (&place, place.change_of_velocities()?);
-    let change = super::positions::in_array(context, system, &system.state_velocities, change);
+    let change = Place::of(context, system, system.positions.as_ref()?).change_of_velocities()?;
+    let change = super::positions::in_array(context, system, &system.state_velocities, &change);
     let (runtime, start) = (&context.runtime, local("start"));
     Some(quote!(|#start, _| #runtime::corrected(*#start, #change)))
 }

@@ -24,10 +24,6 @@ pub(super) enum Argument {
     Start,
     /// `present`, where an iteration is
     Present,
-    /// `open`, what is left of equations
-    Open,
-    /// `moved`, by how much coordinates change
-    Moved,
     /// `values`, computed ahead
     Values,
     /// `phase`, coordinates and momenta

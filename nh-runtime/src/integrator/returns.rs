@@ -38,16 +38,6 @@ where
         }
         let mut moved = self.state;
         let returned = self.system.return_to_positions(self.time, &mut moved);
-        // rounding is not moved, and where rates are dependent a step is no number
-        let mut stepped = self.state;
-        self.system.correct_positions(self.time, &mut stepped);
-        let has_step = first_non_finite(stepped.to_array().as_ref()).is_none();
-        let returned = match returned {
-            Ok(left) if left != ScalarOf::<S>::ZERO && !has_step => {
-                Err(ProjectionError { iterations: 1, residual: left.to_f64() })
-            }
-            returned => returned,
-        };
         let corrections = self.system.correction(&self.state, &moved);
         let permitted = self.method.permitted(&self.state);
         let mut pairs = corrections.as_ref().iter().zip(permitted.as_ref());
