@@ -47,7 +47,6 @@ const MOST_STEPS: u32 = 8;
 /// 2¹⁰. Where changes do not fall as they do near to the constraints, where velocities change by more, and where something
 /// is not finite, the way is left to iterations that lead back from further away. Lanes go together.
 #[derive(Clone, Copy, Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "they stay in registers, and are asked for one by one")]
 pub struct NearReturn<T, const N: usize, const M: usize> {
     /// The sizes of the positions: where they were at first, and how far they have moved.
     sizes: [T; N],
