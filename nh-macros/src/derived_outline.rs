@@ -30,7 +30,10 @@ pub(crate) fn outlined(model: Model) -> Outline {
             }
         }
     };
-    system.map_or_else(|| outline.clone(), |system| outline.clone().derived(&system, momenta))
+    match system {
+        Some(system) => outline.derived(&system, momenta),
+        None => outline,
+    }
 }
 
 /// Whether a derivation tells more than the declaration.

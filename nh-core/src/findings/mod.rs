@@ -142,15 +142,14 @@ impl Findings {
 
 fn of_derivatives(proved: &mut Proved, of_equations: &[Condition]) -> OfDerivatives {
     let Proved { model, facts, .. } = proved;
-    let is_asked = |request: &Request| {
-        request.differentiates_the_motion() || matches!(request, Request::Taylor | Request::Divergence)
-    };
+    let is_asked = |request: &Request| request.computes_slopes() || *request == Request::Taylor;
     if !model.requests.iter().any(|(request, _)| is_asked(request)) {
         return OfDerivatives::default();
     }
     let conditions = domain_of_derivatives(model, facts, of_equations);
-    // power series have no values that they tend to
-    if model.requests.iter().any(|(request, _)| *request == Request::Taylor) {
+    // power series have no values that they tend to, and where the equations have none, neither have their derivatives
+    let has_series = model.requests.iter().any(|(request, _)| *request == Request::Taylor);
+    if has_series || of_equations.iter().any(|condition| matches!(condition, Condition::Positive(_))) {
         return OfDerivatives { unless: conditions, go_on: false };
     }
     let unless = without_slopes_at_rest(model, facts, &conditions);

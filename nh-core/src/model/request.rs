@@ -82,6 +82,12 @@ impl Request {
         )
     }
 
+    /// Whether derivatives of the right-hand side are computed for it: a divergence is made of them, too.
+    #[must_use]
+    pub fn computes_slopes(self) -> bool {
+        self.differentiates_the_motion() || self == Self::Divergence
+    }
+
     /// Whether it asks for steps that are made of all velocities, so that the state has to keep them.
     #[must_use]
     pub fn keeps_all_velocities(self) -> bool {

@@ -27,8 +27,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         part.items.extend(power::item(context, &printer.results));
     }
     for Function { signature, procedure } in system.functions.iter() {
-        let is_of_motion =
-            [functions::DIVERGENCE.name, functions::PARAMETER_JACOBIAN.name].contains(&signature.name);
+        let is_of_motion = signature.request().is_some_and(Request::computes_slopes);
         let limits = if is_of_motion { system.limits_at_rest() } else { Limits::Open };
         let program = context.lowering.derivative(&system.model, (signature.name, procedure), limits);
         let mut body = body(context, scope, &program);

@@ -329,6 +329,18 @@ fn jacobians_go_on_where_forces_do() {
             assert_eq!(told(machine, level), "", "{level}: {machine}");
         }
     }
+    // what the equations divide by themselves has no limit, whatever holds of other roots
+    let both = "x: a*x*y/sqrt(x^2 + y^2) - a*sqrt(der(x)^2 + der(y)^2)*der(x);";
+    let text = format!(
+        "#[nonholonomic(base {{ x, y }} lagrangian {{ der(x)^2 + der(y)^2 }} forces {{ {both} }} emit {{ jacobian }})] \
+         struct Machine {{ a: f64 }}"
+    );
+    let system = declarations(&text)[0].system().expect("it is right");
+    assert!(
+        !system.derivatives_go_on && system.report.contains("unless x_dot^2 + y_dot^2 > 0"),
+        "{}",
+        system.report
+    );
     // multiplied out, the derivative of the root no longer shows that it vanishes with it
     assert_eq!(
         told(&format!("{arm} forces {{ {tip} }}"), "balanced"),
