@@ -229,9 +229,10 @@ fn with_numbers_at_rest(program: &Program, mended: &BTreeMap<Value, Vec<Value>>)
         let is_quotient = matches!(step, Step::Div(..) | Step::Recip(_)) || program.is_rest(step);
         let plain = |old: Value| renamed[old.index()];
         let divisor = |old: Value| at_rest.get(&old).filter(|_| is_quotient).copied().unwrap_or(plain(old));
-        let result = match step {
-            Step::Div(a, b) => steps.push(Step::Div(plain(*a), divisor(*b))),
-            Step::Sqrt(square) if let Some((root, _)) = lengths.get(square) => *root,
+        let known_root = if let Step::Sqrt(square) = step { lengths.get(square) } else { None };
+        let result = match (step, known_root) {
+            (_, Some((root, _))) => *root,
+            (Step::Div(a, b), None) => steps.push(Step::Div(plain(*a), divisor(*b))),
             _ => steps.push(rename(step, &divisor)),
         };
         renamed.push(result);
