@@ -91,6 +91,7 @@ pub use number::Rational;
 pub(crate) use prime_power::PrimePower;
 pub use range::{Facts, Range};
 pub use real_number::RealNumber;
+pub(crate) use real_points::{Point, real_points_beside};
 pub(crate) use residue_steps::{Chosen, ResidueSteps, StepsModulo};
 pub(crate) use signature::negative_eigenvalues;
 pub(crate) use square_points::Radicands;

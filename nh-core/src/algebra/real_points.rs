@@ -14,6 +14,9 @@ use crate::limits;
 
 /// The places from which points are looked for.
 const PLACES: u64 = 24;
+/// The places from which points beside others are looked for, and how far these are apart.
+const PLACES_BESIDE: u64 = 4;
+const BESIDE: f64 = 1e-2;
 /// Machines that are tried at each place for one that is as assumed.
 const MACHINES: u64 = 40;
 /// Steps from each.
@@ -54,6 +57,30 @@ impl Graph {
     }
 }
 
+/// A real point, by its symbols.
+pub(crate) type Point = Vec<(SymbolId, f64)>;
+
+/// Real points where demands are met near to points where a further function is zero besides, as far as rounding tells.
+pub(crate) fn real_points_beside(
+    graph: &mut Graph,
+    demands: &[(ExprId, Demand)],
+    function: ExprId,
+) -> Vec<Point> {
+    let there = [demands, &[(function, Demand::Zero)]].concat();
+    let (mut on, mut beside) = (Search::of(graph, &there), Search::of(graph, demands));
+    let places = (0..PLACES_BESIDE).filter_map(|place| {
+        let met = on.point_from(place)?;
+        let moved = |symbol: &SymbolId| {
+            let index = on.symbols.iter().position(|known| known == symbol)?;
+            Some(met[index] + BESIDE * sample(place + 2, index))
+        };
+        let start = beside.symbols.iter().map(moved).collect::<Option<Vec<f64>>>()?;
+        let point = beside.point_near(&start)?;
+        Some(beside.symbols.iter().copied().zip(point).collect())
+    });
+    places.collect()
+}
+
 impl Search {
     /// The search for where demands are met.
     pub(super) fn of(graph: &mut Graph, demands: &[(ExprId, Demand)]) -> Self {
@@ -84,8 +111,12 @@ impl Search {
     pub(super) fn point_from(&mut self, place: u64) -> Option<Vec<f64>> {
         let starts = (0..MACHINES).map(|machine| self.start(place, machine)).collect::<Vec<_>>();
         let met = starts.iter().find(|start| self.is_allowed(start)).cloned();
-        let mut point = met.or_else(|| starts.into_iter().next())?;
-        let start = point.clone();
+        self.point_near(met.as_ref().or_else(|| starts.first())?)
+    }
+
+    /// Where they are met, looked for from a point.
+    fn point_near(&mut self, start: &[f64]) -> Option<Vec<f64>> {
+        let mut point = start.to_owned();
         let mut size = self.size(&point)?;
         let first = size;
         let mut damping = DAMPING;
@@ -95,8 +126,8 @@ impl Search {
             }
             let step = self.step(&point, damping)?;
             // where a factor is zero its product is as good as zero near to that
-            let is_near = step.iter().zip(&start).all(|(dx, x)| dx.abs() <= NEAR * x.abs());
-            if is_near && size <= NEAR * NEAR * first && self.keeps_its_distance(&point, &start) {
+            let is_near = step.iter().zip(start).all(|(dx, x)| dx.abs() <= NEAR * x.abs());
+            if is_near && size <= NEAR * NEAR * first && self.keeps_its_distance(&point, start) {
                 return Some(point);
             }
             let next: Vec<f64> = point.iter().zip(&step).map(|(x, dx)| x - dx).collect();

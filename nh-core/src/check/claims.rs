@@ -4,7 +4,7 @@ use super::evidence::{not_zero, seen, shown};
 use super::values_where_unsolved::vanishes_where_unsolved;
 use crate::algebra::{Facts, Graph, Verdict, Witness};
 use crate::geometry::Manifold;
-use crate::id::ExprId;
+use crate::id::{ExprId, SymbolId};
 use crate::mechanics::Flow;
 use crate::model::Model;
 use crate::violation::{Law, Violation};
@@ -22,7 +22,7 @@ pub fn claims(
     for (index, claim) in claims.iter().enumerate() {
         let graph = &mut model.graph;
         let rate = flow.derivative(graph, *claim);
-        let (manifold, verdict) = manifold.judged(graph, rate);
+        let (whole, (manifold, verdict)) = (manifold, manifold.judged(graph, rate));
         let restricted = manifold.restrict(graph, rate);
         let mut verdict = graph.verdict_under(restricted, facts, verdict);
         if !unsolved.is_empty()
@@ -46,7 +46,11 @@ pub fn claims(
                 not_conserved,
                 format!("its rate along the motion {}", not_zero(&model.graph, rate, witness)),
             ),
-            Verdict::NonZero(witness) => (not_conserved, on_manifold(&model.graph, rate, witness, &manifold)),
+            Verdict::NonZero(witness) => {
+                let own = whole.own_images(manifold.images()).into_iter().map(|(symbol, _)| symbol);
+                let evidence = on_manifold(&model.graph, rate, witness, (&manifold, own.collect()));
+                (not_conserved, evidence)
+            }
             Verdict::Unknown(why) => (
                 format!("whether `{}` is conserved could not be decided", declared.name),
                 format!("its rate along the motion is {}: {why}", shown(&model.graph, rate)),
@@ -63,12 +67,20 @@ pub fn claims(
     violations
 }
 
-/// The rate at a point where the constraints hold, in the symbols of the declaration.
-fn on_manifold(graph: &Graph, rate: ExprId, witness: &Witness, manifold: &Manifold) -> String {
+/// The rate at a point where the constraints hold, in the symbols of the declaration and those that tell the part of it.
+fn on_manifold(
+    graph: &Graph,
+    rate: ExprId,
+    witness: &Witness,
+    (manifold, mut symbols): (&Manifold, Vec<SymbolId>),
+) -> String {
     let text = shown(graph, rate);
-    let symbols = graph.symbols_in(&[rate]);
+    let inside = graph.symbols_in(&[rate]);
+    let are_few = inside.len() <= 12;
+    symbols.retain(|symbol| !inside.contains(symbol));
+    symbols.extend(inside);
     match manifold.point(graph, witness, &symbols) {
-        Some(point) if symbols.len() <= 12 => {
+        Some(point) if are_few => {
             let place: Vec<String> = point
                 .iter()
                 .map(|(symbol, value)| format!("{} = {value:.4}", graph.symbols()[*symbol]))

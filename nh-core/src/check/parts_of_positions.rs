@@ -3,7 +3,7 @@
 
 use super::dependence::{left_out, place_of};
 use super::evidence::{listed, name_of};
-use crate::algebra::{Graph, Matrix, Node};
+use crate::algebra::{Demand, Graph, Matrix, Node};
 use crate::geometry::{Manifold, NearManifold, RowsOnPart, rows_on_parts};
 use crate::id::{ConstraintId, ExprId, Id, SymbolId};
 use crate::limits::attempt;
@@ -109,6 +109,43 @@ pub(super) fn without_lesser_parts(
     let mut is_kept = ranks.iter().map(|rank| *rank >= meant);
     manifold.keep_parts(|_| is_kept.next().unwrap_or(true));
     lesser
+}
+
+/// Where some of the position constraints hold, for any parameters.
+pub(super) fn where_these_hold(model: &mut Model, positions: &[usize], base: &Manifold) -> NearManifold {
+    let functions: Vec<ExprId> = positions.iter().map(|index| model.positions[*index].value).collect();
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    let mut demands = super::assumptions::on_the_base(model);
+    demands.extend(functions.iter().map(|function| (*function, Demand::Zero)));
+    let graph = &mut model.graph;
+    let mut near = Manifold::of_positions(graph, base, &functions, [&coordinates, &[]]);
+    if near.unsolved.is_empty() {
+        near.manifold.add_unreached_parts(graph, &demands, &coordinates, |graph, divisor| {
+            let functions = [&[divisor], functions.as_slice()].concat();
+            let part = Manifold::of_positions(graph, base, &functions, [&coordinates, &[]]);
+            part.unsolved.is_empty().then_some(part.manifold)
+        });
+    }
+    near
+}
+
+/// Where an equation does not follow from others, if it does so on one part of where these hold.
+pub(super) fn does_not_follow(
+    model: &mut Model,
+    others: &[usize],
+    value: ExprId,
+    base: &Manifold,
+) -> Option<String> {
+    let NearManifold { manifold, unsolved } = where_these_hold(model, others, base);
+    let graph = &mut model.graph;
+    let mut vanishes = |part: &Manifold| {
+        let restricted = part.restrict(graph, value);
+        graph.zero_test(restricted).is_zero()
+    };
+    let follows: Vec<bool> = manifold.parts().map(&mut vanishes).collect();
+    let part = manifold.parts().zip(&follows).find(|(_, follows)| !**follows).map(|(part, _)| part)?;
+    let is_known = unsolved.is_empty() && follows.contains(&true);
+    is_known.then(|| place_of(model, &manifold, part))
 }
 
 /// How many factors a function is written as that change as symbols move, and may vanish.

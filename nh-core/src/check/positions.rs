@@ -8,7 +8,8 @@ use super::evidence::{listed, name_of, shown};
 use super::kinematics::Motion;
 use super::no_force::{position_without_force, touching_as_multiples, touching_each_other};
 use super::parts_of_positions::{
-    LesserPart, Unsolved, part_of_positions, rates_on_part, unknown_motion, without_lesser_parts,
+    LesserPart, Unsolved, does_not_follow, part_of_positions, rates_on_part, unknown_motion,
+    where_these_hold, without_lesser_parts,
 };
 use super::whole_base::beside_positions;
 use crate::algebra::{Demand, Graph, Matrix};
@@ -99,6 +100,13 @@ pub fn positions(
     found.unsolved = unsolved.iter().map(|index| values[*index]).collect();
     found.manifold = manifold;
     let demands = where_they_hold(model);
+    if found.unsolved.is_empty() {
+        found.manifold.add_unreached_parts(&mut model.graph, &demands, &coordinates, |graph, divisor| {
+            let functions = [&[divisor], values.as_slice()].concat();
+            let near = Manifold::of_positions(graph, base, &functions, [&coordinates, &parameters]);
+            near.unsolved.is_empty().then_some(near.manifold)
+        });
+    }
     found.manifold.keep_parts_with_points(&mut model.graph, &demands);
     found.values = values;
     let rows = jacobian(model, motion, algebroid);
@@ -349,10 +357,9 @@ fn fixes(
 
 /// What the others leave of an equation where they hold, if that is not 0 and the same everywhere there.
 fn left_of(model: &mut Model, kept: &[usize], value: ExprId, found: &Positions) -> Option<ExprId> {
-    let functions: Vec<ExprId> = kept.iter().map(|index| model.positions[*index].value).collect();
+    let others = where_these_hold(model, kept, &found.base);
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
     let graph = &mut model.graph;
-    let others = Manifold::of_positions(graph, &found.base, &functions, [&coordinates, &[]]);
     let restricted = others.manifold.restrict(graph, value);
     let left = graph.simplify(restricted);
     let is_left = others.unsolved.is_empty()
@@ -428,11 +435,15 @@ fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, foun
     if let Some(left) = left_of(model, kept, value, found) {
         return Follows::Refused(says_left(model, origin, &name, left));
     }
-    if let Some(place) = only_on_a_part(model, rows, kept, index, found) {
+    let follows = format!("{name} follows from the position constraints before it");
+    let place = only_on_a_part(model, rows, kept, index, found).or_else(|| {
+        does_not_follow(model, kept, value, &found.base).map(|place| format!(", but not{place}"))
+    });
+    if let Some(place) = place {
         return Follows::Refused(Violation {
             law,
             origin,
-            what: format!("{name} follows from the position constraints before it{place}"),
+            what: format!("{follows}{place}"),
             evidence: PARTS.into(),
             way_out: ONE_PART.into(),
         });
@@ -477,7 +488,7 @@ fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, foun
     Follows::Refused(Violation {
         law,
         origin,
-        what: format!("{name} follows from the position constraints before it"),
+        what: follows,
         evidence,
         way_out: "leave it out; or write `redundant;` in `holonomic`: it then stays in residual and return, \
                   without a multiplier"

@@ -6,7 +6,7 @@
 
 use super::common_zeros::vanish_together;
 use super::solutions::{Ease, Solved, cayley, difference, quotient, root, sphere};
-use crate::algebra::{Graph, Matrix, Node, Substitution, Verdict, Witness};
+use crate::algebra::{Demand, Graph, Matrix, Node, Substitution, Verdict, Witness};
 use crate::id::{ExprId, SymbolId};
 use crate::limits::{attempt, spent};
 
@@ -66,20 +66,31 @@ impl Manifold {
     pub fn where_zero(graph: &mut Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Result<Self, usize> {
         let groups = apart(graph, functions, unknowns);
         if groups.len() < 2 {
-            return Self::where_all_zero(graph, functions, unknowns);
+            return Self::on_all_parts(graph, functions, unknowns);
         }
         let mut manifold = Self::default();
         for group in groups {
             let of_group: Vec<ExprId> = group.iter().map(|index| functions[*index]).collect();
             let solved =
-                Self::where_all_zero(graph, &of_group, unknowns).map_err(|position| group[position])?;
+                Self::on_all_parts(graph, &of_group, unknowns).map_err(|position| group[position])?;
             manifold.extend(graph, &solved);
         }
         manifold.note_roots_of(graph, functions);
         Ok(manifold)
     }
 
-    /// The same without looking for functions that share no unknown.
+    /// The same of functions that share unknowns.
+    fn on_all_parts(graph: &mut Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Result<Self, usize> {
+        let mut manifold = Self::where_all_zero(graph, functions, unknowns)?;
+        let demands: Vec<(ExprId, Demand)> =
+            functions.iter().map(|function| (*function, Demand::Zero)).collect();
+        manifold.add_unreached_parts(graph, &demands, unknowns, |graph, divisor| {
+            Self::where_all_zero(graph, &[&[divisor], functions].concat(), unknowns).ok()
+        });
+        Ok(manifold)
+    }
+
+    /// The same, with the parts that charts reach.
     fn where_all_zero(graph: &mut Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Result<Self, usize> {
         if let Some(rotations) = Self::rotations(graph, functions, unknowns) {
             return Ok(rotations);

@@ -26,6 +26,7 @@ mod rank;
 mod solutions;
 mod structure;
 pub mod suggested_velocities;
+mod unreached_parts;
 mod ways;
 
 pub use algebroid::Algebroid;
