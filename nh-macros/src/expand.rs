@@ -11,13 +11,13 @@ use nonholonomic_core::violation::{Law, Violation};
 use crate::derived_outline::outlined;
 use crate::emit::{Layout, collision, emit, stubs};
 use crate::report::{Diagnostic, compile_errors};
-use crate::resolve::{Outline, Resolved, resolve};
+use crate::resolve::{Outline, Resolved, resolve, told_of_lengths};
 use crate::syntax::{self, Malformed};
 
 /// The expansion of the attribute. On error: the errors, and the items that there would have been
 /// without them, as far as they are known.
 pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenStream {
-    let declaration = match syntax::parse(attribute.clone(), item.clone()) {
+    let mut declaration = match syntax::parse(attribute.clone(), item.clone()) {
         Ok(declaration) => declaration,
         Err(Malformed { errors, rest: Some(rest) }) => {
             // what is wrong besides may follow from these errors: nothing is said of it
@@ -36,6 +36,7 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
     let resolved = match resolve(&declaration, &mut layout) {
         Ok(resolved) => resolved,
         Err(unresolved) => {
+            let unresolved = told_of_lengths(&mut declaration, unresolved);
             return with_errors(&unresolved.errors, &stubs(&layout, &outlined(*unresolved.model)));
         }
     };

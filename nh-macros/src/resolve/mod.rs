@@ -30,6 +30,7 @@ mod kept_variables;
 mod kinematics;
 mod methods;
 mod origins;
+mod other_lengths;
 mod outline;
 mod partial;
 mod places;
@@ -61,6 +62,7 @@ use nonholonomic_core::model::{Located, Model, Request};
 
 pub(crate) use self::dropped::resolve_quotient;
 pub(crate) use self::origins::Origins;
+pub(crate) use self::other_lengths::told_of_lengths;
 pub(crate) use self::outline::{Outline, OutlinedImpact};
 pub(crate) use self::related_systems::{Unrelated, resolve_morphism};
 use self::resolver::{Resolver, Tables};
@@ -84,6 +86,8 @@ pub(crate) struct Unresolved {
     pub(crate) errors: Vec<Diagnostic>,
     /// What is known, of which parts in error are left out: what stubs are made of.
     pub(crate) model: Box<Model>,
+    /// The steps that were taken.
+    pub(crate) steps: usize,
 }
 
 /// Resolves a declaration. The layout starts from that of the struct; what is known of it is
@@ -95,9 +99,10 @@ pub(crate) fn resolve(declaration: &SystemDecl, layout: &mut Layout) -> Result<R
     resolver.surroundings(declaration, layout);
     let model = resolver.model(declaration, layout);
     let Resolver { origins, reports, .. } = resolver;
+    let steps = reports.steps_taken();
     match reports.finish(()) {
         Ok(()) => Ok(Resolved { model, origins }),
-        Err(errors) => Err(Unresolved { errors, model: Box::new(model) }),
+        Err(errors) => Err(Unresolved { errors, model: Box::new(model), steps }),
     }
 }
 

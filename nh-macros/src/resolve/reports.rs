@@ -113,6 +113,11 @@ impl Reports {
         !self.places.is_empty()
     }
 
+    /// The work that was done: all that may be, where it was refused.
+    pub(super) fn steps_taken(&self) -> usize {
+        STEPS - self.steps
+    }
+
     /// Does some work, which is refused when there was too much.
     pub(super) fn spend(&mut self, at: Extent, steps: usize) -> Outcome<()> {
         if let Some(left) = self.steps.checked_sub(steps) {

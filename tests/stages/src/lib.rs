@@ -116,14 +116,18 @@ impl Declaration {
     }
 
     fn resolved(&self) -> Result<(resolve::Resolved, Layout), Vec<String>> {
-        let parsed = match syntax::parse(self.attribute.clone(), self.item.clone()) {
+        let mut parsed = match syntax::parse(self.attribute.clone(), self.item.clone()) {
             Ok(parsed) => parsed,
             Err(Malformed { errors, .. }) => return Err(errors.iter().map(ToString::to_string).collect()),
         };
         let mut layout = Layout::of_struct(&parsed.structure, self.attribute.clone());
         match resolve::resolve(&parsed, &mut layout) {
             Ok(resolved) => Ok((resolved, layout)),
-            Err(unresolved) => Err(unresolved.errors.iter().map(ToString::to_string).collect()),
+            Err(unresolved) => Err(resolve::told_of_lengths(&mut parsed, unresolved)
+                .errors
+                .iter()
+                .map(ToString::to_string)
+                .collect()),
         }
     }
 }
