@@ -1,5 +1,6 @@
 //! Diagnostics: what is wrong, the evidence, and a way out, at the tokens concerned.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use proc_macro2::{Delimiter, Group, Literal, Span, TokenStream, TokenTree};
@@ -52,12 +53,23 @@ struct Message {
     way_out: Option<String>,
     /// A word that is told of once, however often it stands.
     word: Option<String>,
+    /// A name that stands for nothing, as others may.
+    unknown: Option<String>,
+    /// How many definitions are missing of names that then stand for nothing.
+    lacking: usize,
 }
 
 impl Diagnostic {
     /// Something is wrong here.
     pub(crate) fn new(extent: Extent, what: impl Into<String>) -> Self {
-        let message = Message { what: what.into(), evidence: None, way_out: None, word: None };
+        let message = Message {
+            what: what.into(),
+            evidence: None,
+            way_out: None,
+            word: None,
+            unknown: None,
+            lacking: 0,
+        };
         Self { extent, message: Box::new(message) }
     }
 
@@ -101,6 +113,34 @@ impl Diagnostic {
         self
     }
 
+    /// And it is about a name that stands for nothing and is like no other.
+    pub(crate) fn about_unknown(mut self, name: &str) -> Self {
+        self.message.unknown = Some(name.to_owned());
+        self
+    }
+
+    /// And it is that so many definitions are missing.
+    pub(crate) fn lacking(mut self, definitions: usize) -> Self {
+        self.message.lacking = definitions;
+        self
+    }
+
+    /// And this shows it as well, after what does already.
+    fn and_evidence(mut self, further: &str) -> Self {
+        let evidence = self.message.evidence.take();
+        self.evidence(
+            evidence.map_or_else(|| further.to_owned(), |evidence| format!("{evidence}\n{further}")),
+        )
+    }
+
+    /// What errors have in common that may be told as one.
+    fn kind(&self) -> (bool, String) {
+        match (&self.message.unknown, &self.message.way_out) {
+            (Some(_), way_out) => (true, way_out.clone().unwrap_or_default()),
+            (None, _) => (false, self.to_string()),
+        }
+    }
+
     /// And this is what to do, unless something better was said already.
     pub(crate) fn or_way_out(self, way_out: impl Into<String>) -> Self {
         if self.message.way_out.is_some() { self } else { self.way_out(way_out) }
@@ -138,8 +178,64 @@ impl ToTokens for Diagnostic {
     }
 }
 
+/// Errors of which many are one mistake: what is said in three places or more is a habit, three names that stand for nothing
+/// are a list that is missing, and names that definitions are missing of stand for nothing for that.
+fn told_together(errors: &[Diagnostic]) -> Vec<Diagnostic> {
+    const MANY: usize = 3;
+    let names = |errors: &[&Diagnostic]| {
+        let names = errors.iter().filter_map(|error| error.message.unknown.as_ref());
+        names.map(|name| format!("`{name}`")).collect::<Vec<_>>()
+    };
+    let unknown: Vec<&Diagnostic> = errors.iter().filter(|error| error.message.unknown.is_some()).collect();
+    let lacks = |error: &Diagnostic| error.message.lacking > 0 && unknown.len() <= error.message.lacking;
+    let is_explained = !unknown.is_empty() && errors.iter().any(lacks);
+    let kinds: Vec<(bool, String)> = errors.iter().map(Diagnostic::kind).collect();
+    let mut told: BTreeSet<&(bool, String)> = BTreeSet::new();
+    let mut together = Vec::new();
+    for (error, kind) in errors.iter().zip(&kinds) {
+        if error.message.unknown.is_some() && is_explained {
+            continue;
+        }
+        if is_explained && lacks(error) {
+            let names = names(&unknown);
+            let stand = if names.len() == 1 { "stands" } else { "stand" };
+            together.push(error.clone().and_evidence(&format!("{} {stand} for nothing", listed(&names))));
+            continue;
+        }
+        let alike = errors.iter().zip(&kinds).filter(|(_, other)| *other == kind);
+        let alike: Vec<&Diagnostic> = alike.map(|(error, _)| error).collect();
+        if alike.len() < MANY {
+            together.push(error.clone());
+            continue;
+        }
+        if !told.insert(kind) {
+            continue;
+        }
+        let mut one = error.clone();
+        if one.message.unknown.is_some() {
+            one.message.what = format!("unknown names {}", listed(&names(&alike)));
+            let evidence: Vec<&str> =
+                alike.iter().filter_map(|error| error.message.evidence.as_deref()).collect();
+            one.message.evidence = (!evidence.is_empty()).then(|| evidence.join("\n"));
+        } else {
+            one = one.and_evidence(&format!("so it is in {} more places", alike.len() - 1));
+        }
+        together.push(one);
+    }
+    together
+}
+
+/// `a`, `b` and `c`.
+fn listed(names: &[String]) -> String {
+    match names {
+        [before @ .., last] if !before.is_empty() => format!("{} and {last}", before.join(", ")),
+        names => names.concat(),
+    }
+}
+
 /// The errors as items that stop the compilation.
 pub(crate) fn compile_errors(errors: &[Diagnostic]) -> TokenStream {
+    let errors = told_together(errors);
     let mut tokens = TokenStream::new();
     for error in errors.iter().take(SHOWN) {
         error.to_tokens(&mut tokens);
@@ -250,9 +346,47 @@ mod tests {
         );
     }
 
+    fn texts(errors: &[Diagnostic]) -> Vec<String> {
+        told_together(errors).iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn a_habit_is_told_once() {
+        let twice = [some("bad"), some("worse"), some("bad")];
+        assert_eq!(texts(&twice), ["bad", "worse", "bad"]);
+        let often = [
+            some("bad").evidence("so"),
+            some("worse"),
+            some("bad").evidence("so"),
+            some("bad").evidence("so"),
+        ];
+        assert_eq!(texts(&often), ["bad\nso\nso it is in 2 more places", "worse"]);
+    }
+
+    #[test]
+    fn names_that_stand_for_nothing_are_told_together() {
+        let unknown =
+            |name: &str| some(&format!("unknown name `{name}`")).about_unknown(name).way_out("declare");
+        let few = [unknown("a"), some("bad"), unknown("b")];
+        assert_eq!(
+            texts(&few),
+            ["unknown name `a`\nhelp: declare", "bad", "unknown name `b`\nhelp: declare"]
+        );
+        let many = [unknown("a"), some("bad"), unknown("b").evidence("twice"), unknown("c")];
+        assert_eq!(texts(&many), ["unknown names `a`, `b` and `c`\ntwice\nhelp: declare", "bad"]);
+        // a definition is missing of each
+        let lacking = |count| some("too few").lacking(count);
+        assert_eq!(
+            texts(&[lacking(2), unknown("a"), unknown("b")]),
+            ["too few\n`a` and `b` stand for nothing"]
+        );
+        assert_eq!(texts(&[unknown("a"), lacking(1)]), ["too few\n`a` stands for nothing"]);
+        assert_eq!(texts(&[lacking(1), unknown("a"), unknown("b")]).len(), 3);
+    }
+
     #[test]
     fn long_lists_are_cut() {
-        let many = vec![some("bad"); 60];
+        let many: Vec<Diagnostic> = (0..60).map(|k| some(&format!("bad {k}"))).collect();
         let text = compile_errors(&many).to_string();
         assert_eq!(text.matches("compile_error").count(), 51);
         assert!(text.contains("and 10 more errors"));

@@ -174,7 +174,8 @@ impl Resolver {
                     if wanted == 1 { "coordinate" } else { "coordinates" },
                 ),
             )
-            .way_out("define one quasi-velocity for each base coordinate, or use `basis` and `anchor`");
+            .way_out("define one quasi-velocity for each base coordinate, or use `basis` and `anchor`")
+            .lacking(wanted.saturating_sub(count));
             self.report(&velocities.keyword, error);
         }
         Kinematics::Coframe(rows)

@@ -251,11 +251,13 @@ impl Scope {
         if of_coordinate("_ddot").is_some() {
             return error.way_out("accelerations are what is derived; they cannot be used");
         }
-        error.way_out(self.nearest(text).unwrap_or_else(|| {
+        if let Some(nearest) = self.nearest(text) {
+            return error.way_out(nearest);
+        }
+        error.about_unknown(text).way_out(
             "parameters are fields of the struct; other names are declared in `base`, `basis`, `inputs` or \
-             `auxiliary`, or by a `let`"
-                .to_owned()
-        }))
+             `auxiliary`, or by a `let`",
+        )
     }
 
     /// Whether a name means something that expressions here have no use of: a skipped field, an output, a `let` of
