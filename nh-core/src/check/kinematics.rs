@@ -196,7 +196,8 @@ fn inverted_coframe(model: &mut Model, rows: &[Located]) -> Result<Motion, Vec<V
     if !violations.is_empty() {
         return Err(violations);
     }
-    if coframe.len() != variables.len() {
+    // names may stand beside it in a declaration in error
+    if coframe.len() != variables.len() || names.len() != variables.len() {
         return Err(vec![not_square(model, coframe.len())]);
     }
     let graph = &mut model.graph;

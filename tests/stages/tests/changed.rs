@@ -2,8 +2,8 @@
 //! `cargo run -p nh-stages --bin fuzz`.
 
 use nh_stages::{
-    Collection, Random, Verdict, collected, collected_relations, errors, judged, judged_relation, minimised,
-    minimised_relation, relations,
+    Collection, Random, Verdict, collected, collected_relations, declarations, errors, judged,
+    judged_relation, minimised, minimised_relation, relations,
 };
 
 /// What one declaration may take: nearly all take less.
@@ -67,4 +67,15 @@ fn what_stands_before_the_new_struct_is_read() {
     let expected = "before `struct` stand attributes and a visibility, and nothing else\nhelp: a quotient reads \
                     `Full -> pub struct Reduced by { x, y } { velocities { v = …; } }`";
     assert_eq!(errors(&relation.expanded()), [expected]);
+}
+
+/// What was found once: the sizes beside an error are derived from what is left, here names without what defines them.
+#[test]
+fn names_beside_an_empty_coframe_are_refused() {
+    let source = "#[nonholonomic(basis { a b } constraints { c: a + b = 0; } velocities { })] struct Empty;
+                  #[nonholonomic(base { x } basis { a, b } constraints { c: a + b = 0; } velocities { v = der(x); })]
+                  struct Beside;";
+    for declaration in declarations(source) {
+        assert!(!errors(&declaration.expanded()).is_empty(), "{}", declaration.name);
+    }
 }
