@@ -60,13 +60,14 @@ impl Graph {
 /// A real point, by its symbols.
 pub(crate) type Point = Vec<(SymbolId, f64)>;
 
-/// Real points where demands are met near to points where a further function is zero besides, as far as rounding tells.
+/// Real points where demands are met near to points where further functions are zero besides, as far as rounding tells.
 pub(crate) fn real_points_beside(
     graph: &mut Graph,
     demands: &[(ExprId, Demand)],
-    function: ExprId,
+    functions: &[ExprId],
 ) -> Vec<Point> {
-    let there = [demands, &[(function, Demand::Zero)]].concat();
+    let zeros = functions.iter().map(|function| (*function, Demand::Zero));
+    let there: Vec<(ExprId, Demand)> = demands.iter().copied().chain(zeros).collect();
     let (mut on, mut beside) = (Search::of(graph, &there), Search::of(graph, demands));
     let places = (0..PLACES_BESIDE).filter_map(|place| {
         let met = on.point_from(place)?;

@@ -111,32 +111,38 @@ pub(super) fn without_lesser_parts(
     lesser
 }
 
-/// Where some of the position constraints hold, for any parameters.
-pub(super) fn where_these_hold(model: &mut Model, positions: &[usize], base: &Manifold) -> NearManifold {
-    let functions: Vec<ExprId> = positions.iter().map(|index| model.positions[*index].value).collect();
-    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
-    let mut demands = super::assumptions::on_the_base(model);
-    demands.extend(functions.iter().map(|function| (*function, Demand::Zero)));
-    let graph = &mut model.graph;
-    let mut near = Manifold::of_positions(graph, base, &functions, [&coordinates, &[]]);
+/// Where some functions on a base vanish, solved for coordinates or for some of the parameters, with the parts that the first
+/// charts do not reach. `demands` hold on the base.
+pub(super) fn on_all_parts(
+    graph: &mut Graph,
+    (base, demands): (&Manifold, Vec<(ExprId, Demand)>),
+    functions: &[ExprId],
+    [coordinates, parameters]: [&[SymbolId]; 2],
+) -> NearManifold {
+    let mut near = Manifold::of_positions(graph, base, functions, [coordinates, parameters]);
     if near.unsolved.is_empty() {
-        near.manifold.add_unreached_parts(graph, &demands, &coordinates, |graph, divisor| {
-            let functions = [&[divisor], functions.as_slice()].concat();
-            let part = Manifold::of_positions(graph, base, &functions, [&coordinates, &[]]);
+        let mut demands = demands;
+        demands.extend(functions.iter().map(|function| (*function, Demand::Zero)));
+        near.manifold.add_unreached_parts(graph, &demands, coordinates, |graph, further| {
+            let functions = [further, functions].concat();
+            let part = Manifold::of_positions(graph, base, &functions, [coordinates, parameters]);
             part.unsolved.is_empty().then_some(part.manifold)
         });
     }
     near
 }
 
+/// Where some of the position constraints hold, for any parameters.
+pub(super) fn where_these_hold(model: &mut Model, positions: &[usize], base: &Manifold) -> NearManifold {
+    let functions: Vec<ExprId> = positions.iter().map(|index| model.positions[*index].value).collect();
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    let demands = super::assumptions::on_the_base(model);
+    on_all_parts(&mut model.graph, (base, demands), &functions, [&coordinates, &[]])
+}
+
 /// Where an equation does not follow from others, if it does so on one part of where these hold.
-pub(super) fn does_not_follow(
-    model: &mut Model,
-    others: &[usize],
-    value: ExprId,
-    base: &Manifold,
-) -> Option<String> {
-    let NearManifold { manifold, unsolved } = where_these_hold(model, others, base);
+pub(super) fn does_not_follow(model: &mut Model, others: &NearManifold, value: ExprId) -> Option<String> {
+    let NearManifold { manifold, unsolved } = others;
     let graph = &mut model.graph;
     let mut vanishes = |part: &Manifold| {
         let restricted = part.restrict(graph, value);
@@ -145,7 +151,7 @@ pub(super) fn does_not_follow(
     let follows: Vec<bool> = manifold.parts().map(&mut vanishes).collect();
     let part = manifold.parts().zip(&follows).find(|(_, follows)| !**follows).map(|(part, _)| part)?;
     let is_known = unsolved.is_empty() && follows.contains(&true);
-    is_known.then(|| place_of(model, &manifold, part))
+    is_known.then(|| place_of(model, manifold, part))
 }
 
 /// How many factors a function is written as that change as symbols move, and may vanish.

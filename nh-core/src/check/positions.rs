@@ -8,7 +8,7 @@ use super::evidence::{listed, name_of, shown};
 use super::kinematics::Motion;
 use super::no_force::{position_without_force, touching_as_multiples, touching_each_other};
 use super::parts_of_positions::{
-    LesserPart, Unsolved, does_not_follow, part_of_positions, rates_on_part, unknown_motion,
+    LesserPart, Unsolved, does_not_follow, on_all_parts, part_of_positions, rates_on_part, unknown_motion,
     where_these_hold, without_lesser_parts,
 };
 use super::whole_base::beside_positions;
@@ -95,18 +95,12 @@ pub fn positions(
     let values: Vec<ExprId> = model.positions.iter().map(|position| position.value).collect();
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|p| p.symbol).collect();
+    let demands = on_the_base(model);
     let NearManifold { manifold, unsolved } =
-        Manifold::of_positions(&mut model.graph, base, &values, [&coordinates, &parameters]);
+        on_all_parts(&mut model.graph, (base, demands), &values, [&coordinates, &parameters]);
     found.unsolved = unsolved.iter().map(|index| values[*index]).collect();
     found.manifold = manifold;
     let demands = where_they_hold(model);
-    if found.unsolved.is_empty() {
-        found.manifold.add_unreached_parts(&mut model.graph, &demands, &coordinates, |graph, divisor| {
-            let functions = [&[divisor], values.as_slice()].concat();
-            let near = Manifold::of_positions(graph, base, &functions, [&coordinates, &parameters]);
-            near.unsolved.is_empty().then_some(near.manifold)
-        });
-    }
     found.manifold.keep_parts_with_points(&mut model.graph, &demands);
     found.values = values;
     let rows = jacobian(model, motion, algebroid);
@@ -254,7 +248,8 @@ fn without_real_point(model: &mut Model, found: &Positions) -> Option<Violation>
         let name = name_of(model, ConstraintId::from_index(index));
         let before: Vec<usize> = (0..index).collect();
         if index > 0
-            && let Some(left) = left_of(model, &before, value, found)
+            && let others = where_these_hold(model, &before, &found.base)
+            && let Some(left) = left_of(model, &others, value, found)
             && model.graph.value_of(left).is_some()
         {
             return Some(says_left(model, origin, &name, left));
@@ -356,8 +351,7 @@ fn fixes(
 }
 
 /// What the others leave of an equation where they hold, if that is not 0 and the same everywhere there.
-fn left_of(model: &mut Model, kept: &[usize], value: ExprId, found: &Positions) -> Option<ExprId> {
-    let others = where_these_hold(model, kept, &found.base);
+fn left_of(model: &mut Model, others: &NearManifold, value: ExprId, found: &Positions) -> Option<ExprId> {
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
     let graph = &mut model.graph;
     let restricted = others.manifold.restrict(graph, value);
@@ -432,13 +426,13 @@ fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, foun
                 .into(),
         });
     }
-    if let Some(left) = left_of(model, kept, value, found) {
+    let others = where_these_hold(model, kept, &found.base);
+    if let Some(left) = left_of(model, &others, value, found) {
         return Follows::Refused(says_left(model, origin, &name, left));
     }
     let follows = format!("{name} follows from the position constraints before it");
-    let place = only_on_a_part(model, rows, kept, index, found).or_else(|| {
-        does_not_follow(model, kept, value, &found.base).map(|place| format!(", but not{place}"))
-    });
+    let place = only_on_a_part(model, rows, kept, index, found)
+        .or_else(|| does_not_follow(model, &others, value).map(|place| format!(", but not{place}")));
     if let Some(place) = place {
         return Follows::Refused(Violation {
             law,

@@ -84,8 +84,8 @@ impl Manifold {
         let mut manifold = Self::where_all_zero(graph, functions, unknowns)?;
         let demands: Vec<(ExprId, Demand)> =
             functions.iter().map(|function| (*function, Demand::Zero)).collect();
-        manifold.add_unreached_parts(graph, &demands, unknowns, |graph, divisor| {
-            Self::where_all_zero(graph, &[&[divisor], functions].concat(), unknowns).ok()
+        manifold.add_unreached_parts(graph, &demands, unknowns, |graph, further| {
+            Self::where_all_zero(graph, &[further, functions].concat(), unknowns).ok()
         });
         Ok(manifold)
     }

@@ -43,6 +43,21 @@ fn claims_of_the_part_that_charts_reach_are_refused() {
     assert_eq!(refusals.len(), 1, "{refusals:?}");
 }
 
+/// Twice the same, of other coordinates: where both divisors vanish is a part of its own, and this claim is false there alone.
+const TWICE: &str = "base { x, y, z, u, v, w, p, q, r, s, o, n } \
+                     lagrangian { m/2*(der(x)^2 + der(y)^2 + der(z)^2 + der(u)^2 + der(v)^2 + der(w)^2 + der(p)^2 \
+                                  + der(q)^2 + der(r)^2 + der(s)^2 + der(o)^2 + der(n)^2) } \
+                     holonomic { a: x*u = y*z; b: y*v = x*w; c: q*p = r*s; d: r*o = q*n; }";
+
+#[test]
+fn parts_where_several_divisors_vanish_are_asked() {
+    let product = "(u*v - z*w)*(p*o - s*n)";
+    let refused = refusals(&format!("{TWICE} conserved {{ c = {product}; }}"));
+    assert!(refused.len() == 1 && refused[0].contains("`c` is not conserved"), "{refused:?}");
+    let proved = refusals(&format!("{TWICE} conserved {{ c = x*{product}; d = r*{product} + x*u - y*z; }}"));
+    assert!(proved.is_empty(), "{proved:?}");
+}
+
 #[test]
 fn claims_of_both_parts_are_proved() {
     for claimed in [
