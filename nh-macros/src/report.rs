@@ -225,8 +225,8 @@ fn told_together(errors: &[Diagnostic]) -> Vec<Diagnostic> {
     together
 }
 
-/// `a`, `b` and `c`.
-fn listed(names: &[String]) -> String {
+/// `a, b and c`.
+pub(crate) fn listed(names: &[String]) -> String {
     match names {
         [before @ .., last] if !before.is_empty() => format!("{} and {last}", before.join(", ")),
         names => names.concat(),

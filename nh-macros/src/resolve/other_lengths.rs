@@ -25,29 +25,30 @@ struct Trial {
 }
 
 /// The errors, of which those that other lengths of one name would remove are one at its declaration. A single error stays
-/// where it is, and so do those that more than one change would remove.
+/// where it is, and so do those that changes of several names would remove, as far as these are tried: what is said is true of
+/// the one in any case.
 pub(crate) fn told_of_lengths(declaration: &mut SystemDecl, unresolved: Unresolved) -> Unresolved {
     let Unresolved { errors, model, steps } = unresolved;
+    let mut trials_left = STEPS / steps.max(1);
+    if errors.len() < 2 {
+        return Unresolved { errors, model, steps };
+    }
     let known: Vec<(String, String)> = errors.iter().map(Diagnostic::of_any_entry).collect();
-    let mut trials_left = if errors.len() < 2 { 0 } else { STEPS / steps.max(1) };
     let mut trials: Vec<Trial> = Vec::new();
     let count = declared(declaration).count();
     for index in 0..count {
         let Some(name) = declared(declaration).nth(index) else { continue };
         let (own, is_symmetric) = (name.lengths.clone(), name.symmetric);
         let (name, extent) = (name.name.text.clone(), name.extent);
-        let shapes = |lengths: &[u32]| [Shape::of(&own), Shape::of(lengths)];
-        for lengths in others(&own) {
-            let is_possible =
-                !is_symmetric || matches!(lengths.as_slice(), [rows, columns] if rows == columns);
-            let Some(left) = trials_left.checked_sub(1).filter(|_| is_possible) else { continue };
+        for lengths in others(&own, is_symmetric) {
+            let Some(left) = trials_left.checked_sub(1) else { break };
             trials_left = left;
             let Some(removed) = removed(declaration, (index, &lengths), &known) else { continue };
             trials.push(Trial {
                 name: name.clone(),
                 extent,
                 is_field: index >= count - declaration.structure.parameters.len(),
-                shapes: shapes(&lengths),
+                shapes: [Shape::of(&own), Shape::of(&lengths)],
                 lengths,
                 removed,
             });
@@ -71,17 +72,26 @@ impl Trial {
         let first = removed.first().and_then(|index| errors.get(*index)).map(ToString::to_string);
         let first = first.unwrap_or_default();
         let first = first.split("\nhelp: ").next().unwrap_or_default().replace('\n', ": ");
-        let declared = if is_field {
-            lengths.iter().rev().fold("…".to_owned(), |inner, length| format!("[{inner}; {length}]"))
-        } else {
-            lengths.iter().fold(name.clone(), |text, length| format!("{text}[{length}]"))
+        let declare = match (is_field, other) {
+            (true, Shape::Number) => format!("it as {other}"),
+            (true, _) => {
+                let written = lengths
+                    .iter()
+                    .rev()
+                    .fold("…".to_owned(), |inner, length| format!("[{inner}; {length}]"));
+                format!("it as `{written}`")
+            }
+            (false, _) => {
+                let written = lengths.iter().fold(name.clone(), |text, length| format!("{text}[{length}]"));
+                format!("`{written}`")
+            }
         };
         let error = Diagnostic::new(extent, format!("`{name}` is {own}, and stands where {other} fits"))
             .evidence(format!(
                 "as {other} it has a meaning in {} places where it has none now, first where {first}",
                 removed.len()
             ))
-            .way_out(format!("declare `{declared}`, or change what stands in those places"));
+            .way_out(format!("declare {declare}, or change what stands in those places"));
         let left = errors.into_iter().enumerate().filter(|(index, _)| !removed.contains(index));
         std::iter::once(error).chain(left.map(|(_, error)| error)).collect()
     }
@@ -115,8 +125,8 @@ fn declared(declaration: &mut SystemDecl) -> impl Iterator<Item = &mut Declared>
     of_lists.chain(&mut declaration.structure.parameters)
 }
 
-/// Lengths that may have been meant instead.
-fn others(own: &[u32]) -> Vec<Vec<u32>> {
+/// Lengths that may have been meant instead: of a symmetric matrix two that are the same.
+fn others(own: &[u32], is_symmetric: bool) -> Vec<Vec<u32>> {
     let near = |length: u32| [length.saturating_sub(1), length + 1];
     let mut all = vec![vec![], vec![2], vec![3], vec![3, 3]];
     match *own {
@@ -131,7 +141,8 @@ fn others(own: &[u32]) -> Vec<Vec<u32>> {
             all.extend(near(columns).map(|columns| vec![rows, columns]));
         }
     }
-    all.retain(|lengths| lengths != own && !lengths.contains(&0));
+    let is_square = |lengths: &[u32]| matches!(lengths, [rows, columns] if rows == columns);
+    all.retain(|lengths| lengths != own && !lengths.contains(&0) && (!is_symmetric || is_square(lengths)));
     all.sort();
     all.dedup();
     all

@@ -7,7 +7,7 @@ use super::calls::Called;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use super::tensors::{Tensor, usage};
-use crate::report::Diagnostic;
+use crate::report::{Diagnostic, listed};
 use crate::syntax::ast::{Expr, Name};
 
 /// Whether a function of the language has this name.
@@ -83,8 +83,7 @@ impl Resolver {
         let shapes: Vec<String> = values.iter().map(|value| value.shape.to_string()).collect();
         let these = match shapes.as_slice() {
             [one] => format!("this is {one}"),
-            [others @ .., last] => format!("these are {} and {last}", others.join(", ")),
-            [] => String::new(),
+            several => format!("these are {}", listed(several)),
         };
         self.report(expr, Diagnostic::new(expr.extent, takes).evidence(these))
     }

@@ -19,7 +19,7 @@ fn with_other_lengths(declaration: &Declaration, list: &str) -> Vec<Declaration>
         let inside = start + open + 1;
         let close = text[inside..].find(']').map_or(end, |length| inside + length);
         let Ok(length) = text[inside..close].trim().parse::<u32>() else { continue };
-        for other in [length - 1, length + 1].into_iter().filter(|other| *other > 0) {
+        for other in [length.saturating_sub(1), length + 1].into_iter().filter(|other| *other > 0) {
             let attribute = format!("{}{other}{}", &text[..inside], &text[close..]).parse();
             changed.extend(attribute.map(|attribute| Declaration { attribute, ..declaration.clone() }));
         }
@@ -69,9 +69,12 @@ fn the_length_that_leaves_nothing_is_told() {
         [
             "`J` is a vector of 2 entries, and stands where a vector of 3 entries fits\nas a vector of 3 entries it has a \
           meaning in 2 places where it has none now, first where `dot` takes two vectors of the same length: these are \
-          a vector of 2 entries and a vector of 3 entries\nhelp: declare `[…; 3]`, or change what stands in those places"
+          a vector of 2 entries and a vector of 3 entries\nhelp: declare it as `[…; 3]`, or change what stands in those places"
         ]
     );
+    let told_of_a_number =
+        told("base { q[3] } lagrangian { dot(der(q), der(q)) - q[1]*sin(J) + cos(J)*q[2] }").join("\n");
+    assert!(told_of_a_number.contains("help: declare it as a number, or change"), "{told_of_a_number}");
     // one place in error is told where it is
     let one = told("base { q[3] } lagrangian { dot(J, der(q))^2 + dot(der(q), der(q)) }");
     assert_eq!(one.len(), 1);
